@@ -1,0 +1,59 @@
+#include "cli/command_line.hpp"
+
+#include <exception>
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace alight {
+namespace {
+
+int fail(const std::exception& e, int code) {
+  spdlog::default_logger()->flush();
+  std::fprintf(stderr, "error: %s\n", e.what());
+  return code;
+}
+
+/// Log lines go to stderr, so that stdout holds a tool's result alone.
+void start_logging(bool quiet, bool verbose) {
+  auto logger = spdlog::get("alight");
+  if (!logger) logger = spdlog::stderr_color_mt("alight");
+  logger->set_pattern("%^%l%$ %v");
+  logger->set_level(quiet ? spdlog::level::warn : verbose ? spdlog::level::debug : spdlog::level::info);
+  spdlog::set_default_logger(logger);
+}
+
+}  // namespace
+
+int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  bool quiet = false;
+  bool verbose = false;
+  app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
+  app.add_flag("-v,--verbose", verbose, "Debug messages too");
+  app.set_version_flag("--version", std::string("alight ") + ALIGHT_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? kExitOk : kExitUsage;
+  }
+  start_logging(quiet, verbose);
+  try {
+    return body();
+  } catch (const ConfigError& e) {
+    return fail(e, kExitUsage);
+  } catch (const std::exception& e) {
+    return fail(e, kExitFailure);
+  }
+}
+
+void add_config_options(CLI::App& app, ConfigOptions& options, const std::string& default_file) {
+  options.file = default_file;
+  auto* file = app.add_option("-c,--config", options.file, "YAML configuration file");
+  if (!default_file.empty()) file->capture_default_str();
+  app.add_option("--set", options.overrides, "Override one key of the file: --set a.b=value (repeatable)")
+      ->allow_extra_args(false);
+  app.add_flag("--print-config", options.print,
+               "Print the resolved configuration with a comment a key, then exit");
+}
+
+}  // namespace alight

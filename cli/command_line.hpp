@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "configs/config_reader.hpp"
+
+namespace alight {
+
+/// Exit codes of every tool: 0 done, 1 the world failed (DataError and the rest), 2 usage or configuration.
+enum ExitCode { kExitOk = 0, kExitFailure = 1, kExitUsage = 2 };
+
+/// Parses argv with `app`, then runs `body`; turns exceptions into a message on stderr and an exit code.
+/// Adds --version, --quiet and --verbose. `body` returns the exit code.
+int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+/// The options through which every tool takes its YAML file.
+struct ConfigOptions {
+  std::string file;                    ///< empty: the built-in defaults
+  std::vector<std::string> overrides;  ///< a.b=value
+  bool print = false;
+};
+
+/// Adds --config, --set and --print-config. `default_file` may be empty.
+void add_config_options(CLI::App& app, ConfigOptions& options, const std::string& default_file = "");
+
+/// Loads the configuration, or binds the overrides to the defaults where no file was named.
+template <class T>
+T load(const ConfigOptions& options) {
+  return options.file.empty() ? parse_config<T>("", "defaults", options.overrides)
+                              : load_config<T>(options.file, options.overrides);
+}
+
+/// For --print-config: writes the resolved file to stdout. @returns true if the tool is done with that.
+template <class T>
+bool print_if_asked(const ConfigOptions& options, const T& config) {
+  if (options.print) std::fputs(print_config(config).c_str(), stdout);
+  return options.print;
+}
+
+}  // namespace alight

@@ -1,0 +1,96 @@
+#include "geometry/reprojection.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <opencv2/imgproc.hpp>
+
+namespace alight {
+
+cv::Mat reproject_depth(const cv::Mat& depth_source_m, const PinholeIntrinsics& intrinsics_source,
+                        const Eigen::Isometry3d& T_target_source,
+                        const PinholeIntrinsics& intrinsics_target) {
+  CV_Assert(depth_source_m.type() == CV_32FC1 && depth_source_m.size() == intrinsics_source.size());
+  cv::Mat depth_target_m = cv::Mat::zeros(intrinsics_target.size(), CV_32FC1);
+  const Eigen::Matrix3d R = T_target_source.linear();
+  const Eigen::Vector3d t = T_target_source.translation();
+  for (int v = 0; v < depth_source_m.rows; ++v) {
+    const float* depth_row = depth_source_m.ptr<float>(v);
+    for (int u = 0; u < depth_source_m.cols; ++u) {
+      if (!(depth_row[u] > 0)) continue;
+      const Eigen::Vector3d p_target = R * (depth_row[u] * intrinsics_source.ray(u, v)) + t;
+      if (p_target.z() <= 0) continue;
+      const Eigen::Vector2d pixel = intrinsics_target.project(p_target);
+      if (!intrinsics_target.contains(pixel.x(), pixel.y())) continue;
+      float& held =
+          depth_target_m.at<float>(static_cast<int>(pixel.y() + 0.5), static_cast<int>(pixel.x() + 0.5));
+      const float depth = static_cast<float>(p_target.z());
+      if (held == 0.0F || depth < held) held = depth;
+    }
+  }
+  return depth_target_m;
+}
+
+SampledView sample_view(const cv::Mat& image_source, const PinholeIntrinsics& intrinsics_source,
+                        const cv::Mat& depth_target_m, const PinholeIntrinsics& intrinsics_target,
+                        const Eigen::Isometry3d& T_source_target) {
+  CV_Assert(image_source.size() == intrinsics_source.size());
+  CV_Assert(depth_target_m.type() == CV_32FC1 && depth_target_m.size() == intrinsics_target.size());
+  const Eigen::Matrix3d R = T_source_target.linear();
+  const Eigen::Vector3d t = T_source_target.translation();
+  cv::Mat map(depth_target_m.size(), CV_32FC2, cv::Scalar::all(-10));
+  SampledView view;
+  view.valid = cv::Mat::zeros(depth_target_m.size(), CV_8UC1);
+  for (int v = 0; v < map.rows; ++v) {
+    for (int u = 0; u < map.cols; ++u) {
+      const float depth = depth_target_m.at<float>(v, u);
+      if (!(depth > 0)) continue;
+      const Eigen::Vector3d p_source = R * (depth * intrinsics_target.ray(u, v)) + t;
+      if (p_source.z() <= 0) continue;
+      const Eigen::Vector2d pixel = intrinsics_source.project(p_source);
+      // All four neighbours of the bilinear sample have to exist.
+      const bool inside = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= intrinsics_source.width_px - 1 &&
+                          pixel.y() <= intrinsics_source.height_px - 1;
+      if (!inside) continue;
+      map.at<cv::Vec2f>(v, u) = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
+      view.valid.at<std::uint8_t>(v, u) = 255;
+    }
+  }
+  cv::remap(image_source, view.image, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+  return view;
+}
+
+cv::Mat rotate_depth(const cv::Mat& depth_source_m, const PinholeIntrinsics& intrinsics,
+                     const Eigen::Matrix3d& R_target_source) {
+  CV_Assert(depth_source_m.type() == CV_32FC1 && depth_source_m.size() == intrinsics.size());
+  const Eigen::Matrix3d R_source_target = R_target_source.transpose();
+  cv::Mat depth_target_m = cv::Mat::zeros(intrinsics.size(), CV_32FC1);
+  for (int v = 0; v < depth_target_m.rows; ++v) {
+    for (int u = 0; u < depth_target_m.cols; ++u) {
+      const Eigen::Vector3d ray_source = R_source_target * intrinsics.ray(u, v);
+      if (ray_source.z() <= 0) continue;
+      const Eigen::Vector2d pixel = intrinsics.project(ray_source);
+      if (!intrinsics.contains(pixel.x(), pixel.y())) continue;
+      const float depth_source =
+          depth_source_m.at<float>(static_cast<int>(pixel.y() + 0.5), static_cast<int>(pixel.x() + 0.5));
+      // The target ray has z = 1, so its length along the source axis is ray_source.z() per metre of target
+      // depth.
+      depth_target_m.at<float>(v, u) = static_cast<float>(depth_source / ray_source.z());
+    }
+  }
+  return depth_target_m;
+}
+
+Eigen::Matrix3d level_rotation(const Eigen::Matrix3d& R_world_camera) {
+  const Eigen::Vector3d z_level = -Eigen::Vector3d::UnitZ();  // optical axis straight down
+  Eigen::Vector3d x_level = R_world_camera.col(0);
+  x_level.z() = 0;  // the image's right, laid into the horizontal plane, keeps the yaw
+  if (x_level.norm() < 1e-6)
+    throw std::invalid_argument("level_rotation: the image's right points straight up or down");
+  x_level.normalize();
+  Eigen::Matrix3d R_world_level;
+  R_world_level << x_level, z_level.cross(x_level), z_level;
+  return R_world_level.transpose() * R_world_camera;
+}
+
+}  // namespace alight

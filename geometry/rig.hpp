@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "configs/config_reader.hpp"
+#include "geometry/camera.hpp"
+
+namespace alight {
+
+/// One camera of a rig (Kalibr's camchain entry).
+struct RigCamera {
+  Camera camera;
+  std::optional<Eigen::Isometry3d> T_camera_imu;
+  double timeshift_cam_imu_s = 0;  ///< t_imu = t_cam + timeshift (Kalibr)
+  std::string topic;
+};
+
+/// The LiDAR of a rig.
+struct RigLidar {
+  Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();  ///< lidar -> cam0
+  double timeshift_s = 0;                                            ///< t_imu = t_lidar + timeshift
+  std::string topic;
+};
+
+/// Sensors and their mounting, as calibrated. A file made by Kalibr (`camchain-imucam.yaml`) is one; ours
+/// adds `lidar0` with `T_cam_lidar rostopic timeshift`.
+struct Rig {
+  RigCamera cam0;                 ///< left
+  std::optional<RigCamera> cam1;  ///< right; absent: mono
+  Eigen::Isometry3d T_cam1_cam0 = Eigen::Isometry3d::Identity();
+  std::optional<RigLidar> lidar0;
+};
+
+/// Reads and checks a rig file. @throws ConfigError with file and line of every mistake
+Rig load_rig(const std::filesystem::path& path);
+/// As load_rig for text; `name` stands for the file in messages.
+Rig parse_rig(const std::string& text, const std::string& name);
+/// The rig as a file that load_rig reads back.
+std::string format_rig(const Rig& rig);
+
+/// 4x4 row-major nested list <-> transform, for other files that carry poses.
+std::vector<std::vector<double>> matrix_rows(const Eigen::Isometry3d& T);
+/// Empty if `rows` is no 4x4 matrix whose upper left is a rotation.
+std::optional<Eigen::Isometry3d> isometry_from_rows(const std::vector<std::vector<double>>& rows);
+
+}  // namespace alight

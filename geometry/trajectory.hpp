@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+namespace alight {
+
+/// The IMU's pose over time from two streams of their own rate, attitude and position (paper 3.1, step 1):
+/// linear interpolation of position, spherical linear of attitude, between the two samples that bracket the
+/// time. Never extrapolates, never bridges a gap.
+class Trajectory {
+ public:
+  explicit Trajectory(double max_pose_gap_s);
+
+  /// Samples must come in time order. @returns false (sample dropped) if not later than the last one or not
+  /// finite
+  bool add_attitude(std::int64_t t_ns, const Eigen::Quaterniond& q_world_imu);
+  bool add_position(std::int64_t t_ns, const Eigen::Vector3d& p_world);
+
+  /// Empty outside the samples and inside gaps longer than max_pose_gap_s.
+  std::optional<Eigen::Isometry3d> T_world_imu(std::int64_t t_ns) const;
+
+  /// The latest time with a pose, provided no gap follows; empty while a stream has no sample.
+  std::optional<std::int64_t> end_ns() const;
+  std::optional<std::int64_t> begin_ns() const;
+
+  /// Drops what is not needed for times >= t_ns, so that an endless flight needs bounded memory.
+  void forget_before(std::int64_t t_ns);
+
+ private:
+  template <class Value>
+  struct Timed {
+    std::int64_t t_ns;
+    Value value;
+  };
+  template <class Value>
+  using Stream = std::deque<Timed<Value>>;
+
+  template <class Value>
+  struct Bracket {
+    const Value* before;
+    const Value* after;
+    double share;  // 0 at before, 1 at after
+  };
+  template <class Value>
+  std::optional<Bracket<Value>> bracket(const Stream<Value>& stream, std::int64_t t_ns) const;
+
+  std::int64_t max_gap_ns_;
+  Stream<Eigen::Quaterniond> attitudes_;
+  Stream<Eigen::Vector3d> positions_;
+};
+
+}  // namespace alight

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Installs what Alight needs from Debian 12's package archive. Safe to run again; needs root or sudo.
+set -euo pipefail
+
+packages=(
+  # tool chain
+  clang-14 lld-14 libomp-14-dev clang-format-14 cmake ninja-build ccache git ca-certificates pkg-config
+  # libraries
+  libtorch-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libcli11-dev
+  nlohmann-json3-dev libgeographiclib-dev libembree-dev libtbb-dev
+  # ROS 1 logs
+  librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev
+  # tests and benchmarks
+  libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "setup: every package is installed"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "setup: root or sudo is needed to install: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "setup: installing ${#missing[@]} packages"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}"
