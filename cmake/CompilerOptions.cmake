@@ -48,17 +48,26 @@ function(alight_torch target)
   target_link_libraries(${target} PRIVATE alight_torch)
   target_compile_options(${target} PRIVATE ${ALIGHT_PCH_OPTIONS})
   target_precompile_headers(${target} REUSE_FROM alight_torch_pch)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL EXECUTABLE)
+    # The header is precompiled with -fPIC; -fPIE, an executable's default, does not fit it.
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIC)
+  endif()
 endfunction()
 
-# alight_test(name SOURCES ... DEPENDS ... [TORCH]): one test executable a folder, tests found by ctest.
+# alight_test(name SOURCES ... DEPENDS ... [TORCH] [WHOLE]): one test executable a folder. ctest sees each test of it;
+# with TORCH (half a second to load) or WHOLE (costly set-up shared by the tests) it sees the executable as one.
 function(alight_test name)
-  cmake_parse_arguments(ARG "TORCH" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "TORCH;WHOLE" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name}_tests ${ARG_SOURCES})
   target_link_libraries(${name}_tests PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_tests PRIVATE ALIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                    ALIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(ARG_TORCH)
     alight_torch(${name}_tests)
+  endif()
+  if(ARG_TORCH OR ARG_WHOLE)
     add_test(NAME ${name} COMMAND ${name}_tests)
     set_tests_properties(${name} PROPERTIES TIMEOUT 900)
   else()

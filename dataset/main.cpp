@@ -1,0 +1,43 @@
+#include "dataset/commands.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app{"From flight logs to data sets of images with sparse depth maps", "alight-dataset"};
+  app.require_subcommand(1)->fallthrough();  // -q and -v also after the subcommand
+  app.footer(
+      "Examples:\n"
+      "  alight-dataset build --config configs/dataset/default.yaml --log a.bag --log b.bag --output "
+      "data/demo\n"
+      "  alight-dataset info data/demo\n"
+      "  alight-dataset view data/demo --sample 12 --flight a --output sample.png");
+
+  alight::BuildOptions build;
+  CLI::App* build_app = app.add_subcommand("build", "Make a data set of ROS 1 bags");
+  alight::add_config_options(*build_app, build.config);
+  build_app->add_option("-l,--log", build.logs, "A ROS 1 bag; repeat for more flights")
+      ->allow_extra_args(false);
+  build_app->add_option("-o,--output", build.output, "Folder to make; must not exist");
+  build_app->footer(
+      "Examples:\n"
+      "  alight-dataset build --config configs/dataset/default.yaml --log a.bag --output data/demo\n"
+      "  alight-dataset build --log a.bag --set depth_map.window_after_s=0.5 --output data/short");
+
+  alight::InfoOptions info;
+  CLI::App* info_app = app.add_subcommand("info", "Print what is in a data set");
+  info_app->add_option("dataset", info.dataset, "Folder of the data set")->required();
+  info_app->footer("Examples:\n  alight-dataset info data/demo");
+
+  alight::ViewOptions view;
+  CLI::App* view_app =
+      app.add_subcommand("view", "Draw one sample: image, sparse depth, time offsets, true depth");
+  view_app->add_option("dataset", view.dataset, "Folder of the data set")->required();
+  view_app->add_option("-n,--sample", view.sample, "Index in the flight")->capture_default_str();
+  view_app->add_option("-f,--flight", view.flight, "Name of the flight (default: the first)");
+  view_app->add_option("-o,--output", view.output, "PNG to write")->required();
+  view_app->footer("Examples:\n  alight-dataset view data/demo --sample 12 --flight a --output sample.png");
+
+  return alight::run_tool(app, argc, argv, [&] {
+    if (build_app->parsed()) return alight::run_build(build);
+    if (info_app->parsed()) return alight::run_info(info);
+    return alight::run_view(view);
+  });
+}

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+/// What a log or a live topic delivers once its ROS type is decoded. Times are on the IMU's clock (time
+/// shifts applied), int64 nanoseconds. The message types of ROS stop at the decoders: nothing behind them
+/// sees one.
+namespace alight {
+
+/// One image of one camera: CV_8UC1 grey or CV_8UC3 BGR.
+struct CameraImage {
+  std::int64_t t_ns = 0;
+  cv::Mat image;
+};
+
+/// Both eyes of one exposure, raw as in the log (not rectified), grey or BGR. `right` is empty for a mono
+/// rig.
+struct StereoFrame {
+  std::int64_t t_ns = 0;  ///< exposure of the left image
+  cv::Mat left;
+  cv::Mat right;
+};
+
+/// One echo, at its own time.
+struct LidarReturn {
+  std::int64_t t_ns = 0;
+  Eigen::Vector3f p_lidar = Eigen::Vector3f::Zero();  ///< metres
+  std::uint8_t reflectivity = 0;
+};
+
+/// The returns of one LiDAR message, in the message's order.
+struct LidarPacket {
+  std::int64_t t_ns = 0;  ///< the message's stamp
+  std::vector<LidarReturn> returns;
+  std::int64_t dropped = 0;  ///< points without echo, not finite or out of range; not in `returns`
+};
+
+/// Attitude of the vehicle's body (x forward, y left, z up) in East-North-Up, unit length.
+struct AttitudeSample {
+  std::int64_t t_ns = 0;
+  Eigen::Quaterniond q_world_imu = Eigen::Quaterniond::Identity();
+};
+
+/// A satellite fix, WGS84.
+struct PositionSample {
+  std::int64_t t_ns = 0;
+  double latitude_deg = 0;
+  double longitude_deg = 0;
+  double altitude_m = 0;  ///< above the ellipsoid
+};
+
+/// Height above the take-off place.
+struct HeightSample {
+  std::int64_t t_ns = 0;
+  double height_m = 0;
+};
+
+/// What a decoder makes of one message.
+using DecodedMessage = std::variant<CameraImage, LidarPacket, AttitudeSample, PositionSample, HeightSample>;
+
+/// What a log delivers: as decoded, with the two eyes paired.
+using LogMessage = std::variant<StereoFrame, LidarPacket, AttitudeSample, PositionSample, HeightSample>;
+
+}  // namespace alight

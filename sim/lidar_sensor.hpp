@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "sim/counter_random.hpp"
+#include "sim/renderer.hpp"
+#include "sim/sensor_config.hpp"
+#include "sim/vehicle.hpp"
+
+namespace alight::sim {
+
+/// One shot. A shot without return is (0, 0, 0), as the Livox driver publishes it.
+struct LidarShot {
+  Eigen::Vector3f p_lidar = Eigen::Vector3f::Zero();
+  std::uint8_t reflectivity = 0;  ///< 150 = a white diffuse surface (Livox's scale)
+};
+
+/// The shots of one message, kLivoxShotPeriod_ns apart.
+struct LidarScan {
+  std::int64_t t_begin_ns = 0;  ///< true time of the first shot, from the start of the flight
+  std::vector<LidarShot> shots;
+};
+
+/// A Livox Mid-40 on a moving vehicle: every shot leaves from where the vehicle is at the shot's own time.
+class LidarSensor {
+ public:
+  /// Renderer and vehicle must outlive the sensor.
+  LidarSensor(const Renderer& renderer, const Vehicle& vehicle, const Eigen::Isometry3d& T_imu_lidar,
+              const LidarConfig& config, std::uint64_t seed);
+
+  std::int64_t shots_per_packet() const { return shots_per_packet_; }
+  /// Message number `packet`, from 0. May be called from several threads.
+  LidarScan scan(std::int64_t packet) const;
+
+ private:
+  bool detected(const Hit& hit, const Eigen::Vector3d& direction_world, std::uint64_t shot) const;
+
+  const Renderer& renderer_;
+  const Vehicle& vehicle_;
+  Eigen::Isometry3d T_imu_lidar_;
+  LidarConfig config_;
+  CounterRandom range_random_;
+  CounterRandom detection_random_;
+  std::int64_t shots_per_packet_;
+  std::int64_t first_shot_;  // where in its pattern the rosette is when the flight starts
+};
+
+}  // namespace alight::sim

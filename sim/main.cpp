@@ -1,0 +1,113 @@
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <spdlog/spdlog.h>
+
+#include "cli/command_line.hpp"
+#include "sim/flight_recorder.hpp"
+#include "sim/flight_score.hpp"
+
+namespace {
+
+using alight::ConfigError;
+
+struct FlyOptions {
+  alight::ConfigOptions config;
+  std::filesystem::path output;
+  std::vector<std::string> only;
+};
+
+struct ScoreOptions {
+  std::filesystem::path truth;
+  std::filesystem::path results;
+  std::int64_t require_accepted = 0;
+  double require_safe_share = 0;
+};
+
+/// Leaves the flights that --flight names.
+void select_flights(const std::vector<std::string>& only, std::vector<alight::sim::FlightConfig>& flights) {
+  if (only.empty()) return;
+  std::vector<alight::sim::FlightConfig> selected;
+  for (const std::string& name : only) {
+    const std::size_t before = selected.size();
+    for (const auto& flight : flights) {
+      if (flight.name == name) selected.push_back(flight);
+    }
+    if (selected.size() == before)
+      throw ConfigError("--flight " + name + ": the configuration has no such flight");
+  }
+  flights = selected;
+}
+
+int fly(const FlyOptions& options) {
+  auto config = alight::load<alight::sim::SimConfig>(options.config);
+  if (alight::print_if_asked(options.config, config)) return alight::kExitOk;
+  if (options.output.empty()) throw ConfigError("--output: is missing; name the folder for the flights");
+  select_flights(options.only, config.flights);
+  const alight::sim::FlightRecorder recorder(config, options.output);
+  recorder.refuse_existing();
+  for (const auto& flight : config.flights) {
+    const alight::sim::RecordedFlight recorded = recorder.record(flight);
+    std::printf("%s  %lld stereo frames  %lld lidar packets  %lld messages  %.1f MB\n",
+                (options.output / (flight.name + ".bag")).c_str(), static_cast<long long>(recorded.frames),
+                static_cast<long long>(recorded.lidar_packets), static_cast<long long>(recorded.messages),
+                static_cast<double>(recorded.bag_bytes) * 1e-6);
+    std::fflush(stdout);
+  }
+  return alight::kExitOk;
+}
+
+int score(const ScoreOptions& options) {
+  const alight::sim::FlightScore result = alight::sim::score_flight(options.truth, options.results);
+  std::fputs(alight::sim::format_score(result).c_str(), stdout);
+  const double share = result.all.accepted > 0
+                           ? static_cast<double>(result.all.safe) / static_cast<double>(result.all.accepted)
+                           : 0.0;
+  const bool enough = result.all.accepted >= options.require_accepted;
+  const bool safe = options.require_safe_share <= 0 || share >= options.require_safe_share;
+  if (!enough)
+    spdlog::error("fewer accepted sites than required: {} < {}", result.all.accepted,
+                  options.require_accepted);
+  if (!safe) spdlog::error("too few on safe ground: share {:.3f} < {}", share, options.require_safe_share);
+  return enough && safe ? alight::kExitOk : alight::kExitFailure;
+}
+
+void add_score_options(CLI::App& app, ScoreOptions& options) {
+  app.add_option("--truth", options.truth, "Folder <flight>.truth")->required();
+  app.add_option("--results", options.results, "results.jsonl of alight-infer on that flight")->required();
+  app.add_option("--require-accepted", options.require_accepted, "Exit with 1 if fewer sites were accepted")
+      ->capture_default_str();
+  app.add_option("--require-safe-share", options.require_safe_share,
+                 "Exit with 1 if a smaller share (0..1) of them lies on truly safe ground")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Flies a simulated vehicle over made-up places and writes ROS bags with their truth.",
+               "alight-sim");
+  app.footer(
+      "Examples:\n"
+      "  alight-sim --config configs/sim/demo.yaml --output logs/\n"
+      "  alight-sim --config configs/sim/demo.yaml --output logs/ --flight village_held_out --set "
+      "sensors.noise=off\n"
+      "  alight-sim --print-config > my_flights.yaml\n"
+      "  alight-sim score --truth logs/village_held_out.truth --results out/results.jsonl --require-accepted "
+      "1");
+  FlyOptions flying;
+  alight::add_config_options(app, flying.config);
+  app.add_option("-o,--output", flying.output, "Folder for <flight>.bag and <flight>.truth/");
+  app.add_option("--flight", flying.only, "Fly only this flight of the configuration (repeatable)")
+      ->allow_extra_args(false);
+  ScoreOptions scoring;
+  CLI::App* score_command =
+      app.add_subcommand("score", "Holds the landing sites of alight-infer against the truth");
+  add_score_options(*score_command, scoring);
+  return alight::run_tool(app, argc, argv,
+                          [&] { return score_command->parsed() ? score(scoring) : fly(flying); });
+}

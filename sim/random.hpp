@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace alight::sim {
+
+/// Bits that look random in all positions (Wellons' "lowbias32" mixer).
+constexpr std::uint32_t mix_bits(std::uint32_t x) {
+  x ^= x >> 16U;
+  x *= 0x7FEB352DU;
+  x ^= x >> 15U;
+  x *= 0x846CA68BU;
+  return x ^ (x >> 16U);
+}
+constexpr std::uint32_t mix_bits(std::uint32_t a, std::uint32_t b) {
+  return mix_bits(a * 0x9E3779B1U + mix_bits(b));
+}
+
+/// PCG32 (O'Neill). Ours because the standard library's distributions give other numbers with every library.
+class Random {
+ public:
+  Random(std::uint64_t seed, std::uint64_t stream) : increment_((stream << 1U) | 1U) {
+    next();
+    state_ += seed;
+    next();
+  }
+
+  std::uint32_t next() {
+    const std::uint64_t old = state_;
+    state_ = old * 6364136223846793005ULL + increment_;
+    const auto shifted = static_cast<std::uint32_t>(((old >> 18U) ^ old) >> 27U);
+    const auto turn = static_cast<std::uint32_t>(old >> 59U);
+    return (shifted >> turn) | (shifted << ((32U - turn) & 31U));
+  }
+  /// [0, 1)
+  double uniform() { return next() * 0x1p-32; }
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  float uniformf(double low, double high) { return static_cast<float>(uniform(low, high)); }
+  /// 0 .. count - 1
+  int below(int count) { return static_cast<int>(uniform() * count); }
+  bool chance(double probability) { return uniform() < probability; }
+
+ private:
+  std::uint64_t state_ = 0;
+  std::uint64_t increment_;
+};
+
+/// Smooth noise in [-1, 1] with one knot every unit.
+double value_noise(double x, double y, std::uint32_t seed);
+
+}  // namespace alight::sim

@@ -1,0 +1,75 @@
+#include "sim/world.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "geometry/frames.hpp"
+#include "sim/random.hpp"
+#include "sim/world_builder.hpp"
+
+namespace alight::sim {
+namespace {
+
+const std::vector<std::pair<std::string, Look>> kLookNames = {{"village", Look::kVillage},
+                                                              {"forest", Look::kForest},
+                                                              {"farmland", Look::kFarmland},
+                                                              {"rocky", Look::kRocky},
+                                                              {"urban", Look::kUrban}};
+
+Eigen::Vector3d sun_of(const WorldConfig& config) {
+  Random random(static_cast<std::uint64_t>(config.seed), 1);
+  // Drawn in any case: naming one angle does not change the other.
+  const double drawn_elevation_deg = random.uniform(30, 68);
+  const double drawn_azimuth_deg = random.uniform(0, 360);
+  const double elevation = to_radians(config.sun_elevation_deg.value_or(drawn_elevation_deg));
+  const double azimuth = to_radians(config.sun_azimuth_deg.value_or(drawn_azimuth_deg));
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+          std::sin(elevation)};
+}
+
+}  // namespace
+
+void bind(Binder& b, WorldConfig& c) {
+  b.choice("look", c.look, kLookNames, "kind of place");
+  b.field("seed", c.seed, "of everything random in the world", at_least(0));
+  b.field("size_m", c.size_m, "side of the square built in detail", between(60, 400));
+  b.field("sun_elevation_deg", c.sun_elevation_deg, "none: drawn from the seed", between(5, 90));
+  b.field("sun_azimuth_deg", c.sun_azimuth_deg, "counter-clockwise from east; none: drawn from the seed",
+          between(-360, 360));
+}
+
+std::string to_string(Look look) {
+  for (const auto& [name, value] : kLookNames) {
+    if (value == look) return name;
+  }
+  return "unknown";
+}
+
+World::World(const WorldConfig& config) : size_m_(config.size_m), sun_direction_(sun_of(config)) {
+  WorldBuilder builder(config);
+  builder.build();
+  meshes_ = std::move(builder.meshes);
+  placements_ = std::move(builder.placements);
+  surfaces_ = std::move(builder.surfaces);
+  terrain_ = std::move(builder.terrain);
+}
+
+World World::from_meshes(std::vector<TriangleMesh> meshes, std::vector<Surface> surfaces, double size_m,
+                         const Eigen::Vector3d& sun_direction) {
+  World world;
+  world.size_m_ = size_m;
+  world.sun_direction_ = sun_direction.normalized();
+  world.meshes_ = std::move(meshes);
+  world.surfaces_ = std::move(surfaces);
+  for (std::size_t i = 0; i < world.meshes_.size(); ++i) {
+    world.placements_.emplace_back();
+    world.placements_.back().mesh = i;
+  }
+  return world;
+}
+
+double World::ground_height_m(double x_m, double y_m) const {
+  return terrain_ ? terrain_->height_m(x_m, y_m) : 0.0;
+}
+
+}  // namespace alight::sim

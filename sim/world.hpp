@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "configs/config_reader.hpp"
+#include "sim/terrain.hpp"
+#include "sim/triangle_mesh.hpp"
+
+namespace alight::sim {
+
+/// Kinds of places.
+enum class Look { kVillage, kForest, kFarmland, kRocky, kUrban };
+
+/// What to build. The same values give the same world, bit for bit.
+struct WorldConfig {
+  Look look = Look::kVillage;
+  int seed = 1;
+  double size_m = 160;                      ///< side of the square that is built in detail
+  std::optional<double> sun_elevation_deg;  ///< none: drawn from the seed
+  std::optional<double> sun_azimuth_deg;    ///< counter-clockwise from east; none: drawn from the seed
+};
+void bind(Binder& b, WorldConfig& c);
+/// The look's name in YAML.
+std::string to_string(Look look);
+
+/// A place: relief, roads, fields, buildings, plants, water; as triangles with surfaces. Frame:
+/// East-North-Up, metres, origin in the middle at ground height. The detailed square is |x|, |y| <= size_m /
+/// 2; beyond it the ground runs on, coarse and bare, so that no camera sees the end of the world from the
+/// middle.
+class World {
+ public:
+  explicit World(const WorldConfig& config);
+
+  /// A world of given triangles: no relief, ground_height_m() is 0.
+  /// @param sun_direction unit vector from the ground to the sun
+  static World from_meshes(std::vector<TriangleMesh> meshes, std::vector<Surface> surfaces, double size_m,
+                           const Eigen::Vector3d& sun_direction = {0.36, 0.48, 0.8});
+
+  const std::vector<TriangleMesh>& meshes() const { return meshes_; }
+  const std::vector<Placement>& placements() const { return placements_; }
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
+  /// Null in a world of given triangles.
+  const Terrain* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
+
+  /// Height of the bare ground (without roads' kerbs, plants, buildings), metres.
+  double ground_height_m(double x_m, double y_m) const;
+  /// Side of the detailed square.
+  double size_m() const { return size_m_; }
+  /// Unit vector from the ground to the sun.
+  const Eigen::Vector3d& sun_direction() const { return sun_direction_; }
+
+ private:
+  World() = default;
+
+  std::vector<TriangleMesh> meshes_;
+  std::vector<Placement> placements_;
+  std::vector<Surface> surfaces_;
+  std::optional<Terrain> terrain_;
+  double size_m_ = 0;
+  Eigen::Vector3d sun_direction_ = Eigen::Vector3d::UnitZ();
+};
+
+}  // namespace alight::sim

@@ -1,0 +1,215 @@
+#include "dataset/flight_log.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "configs/errors.hpp"
+#include "test_flight.hpp"
+
+namespace alight::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+template <class Message>
+std::vector<Message> all_of(const std::vector<LogMessage>& messages) {
+  std::vector<Message> chosen;
+  for (const LogMessage& message : messages) {
+    if (const auto* one = std::get_if<Message>(&message)) chosen.push_back(*one);
+  }
+  return chosen;
+}
+
+std::string open_error(const fs::path& path, const Rig& rig = small_rig(), const LogConfig& config = {}) {
+  return message_of<DataError>([&] { FlightLog log(path, rig, config); });
+}
+
+class FlightLogTest : public ::testing::Test {
+ protected:
+  fs::path bag(const FlightOptions& options = {}) {
+    fs::path path = folder_.path() / "flight.bag";
+    write_flight(path, options);
+    return path;
+  }
+  /// A whole flight, and with it what `add` writes.
+  fs::path bag_with(const FlightOptions& options, const std::function<void(rosbag::Bag&)>& add) {
+    const fs::path path = bag(options);
+    rosbag::Bag file(path.string(), rosbag::bagmode::Append);
+    add(file);
+    return path;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(FlightLogTest, StreamsEverythingInTheOrderOfRecording) {
+  FlightLog log(bag(), small_rig(), {});
+  std::vector<std::int64_t> receive_ns;
+  LogMessage message;
+  std::vector<LogMessage> messages;
+  while (log.next(message)) {
+    receive_ns.push_back(log.receive_ns());
+    messages.push_back(message);
+  }
+  EXPECT_TRUE(std::is_sorted(receive_ns.begin(), receive_ns.end()));
+  EXPECT_EQ(all_of<AttitudeSample>(messages).size(), 300u);
+  EXPECT_EQ(all_of<PositionSample>(messages).size(), 150u);
+  EXPECT_EQ(all_of<HeightSample>(messages).size(), 150u);
+  EXPECT_EQ(all_of<LidarPacket>(messages).size(), 30u);
+  const auto frames = all_of<StereoFrame>(messages);
+  ASSERT_EQ(frames.size(), 30u);
+  EXPECT_EQ(frames[0].t_ns, kStart_ns + 50'000'000);
+  EXPECT_EQ(frames[0].left.size(), cv::Size(64, 48));
+  EXPECT_EQ(frames[0].right.size(), cv::Size(64, 48));
+  EXPECT_EQ(log.consumed(), log.summary().messages);
+  EXPECT_EQ(log.summary().topic_messages.at("/left"), 30);
+  EXPECT_TRUE(log.summary().dropped.count("images without the other eye's") == 0);
+}
+
+TEST_F(FlightLogTest, FindsCompressedTopics) {
+  FlightOptions options;
+  options.compressed = true;
+  FlightLog log(bag(options), small_rig(), {});
+  EXPECT_EQ(all_of<StereoFrame>(read_all(log)).size(), 30u);
+}
+
+TEST_F(FlightLogTest, AMonoRigNeedsNoRightImages) {
+  FlightOptions options;
+  options.right = false;
+  FlightLog log(bag(options), small_mono_rig(), {});
+  const auto frames = all_of<StereoFrame>(read_all(log));
+  ASSERT_EQ(frames.size(), 30u);
+  EXPECT_TRUE(frames[0].right.empty());
+}
+
+TEST_F(FlightLogTest, ShiftsTimesToTheImuClock) {
+  Rig rig = small_rig();
+  rig.cam0.timeshift_cam_imu_s = 0.004;
+  rig.lidar0->timeshift_s = -0.002;
+  FlightLog log(bag(), rig, {});
+  const auto messages = read_all(log);
+  EXPECT_EQ(all_of<StereoFrame>(messages)[0].t_ns, kStart_ns + 54'000'000);
+  const auto packet = all_of<LidarPacket>(messages)[0];
+  EXPECT_EQ(packet.t_ns, kStart_ns + 50'000'000 - 100'000'000 - 2'000'000);
+  EXPECT_EQ(packet.returns[0].t_ns, packet.t_ns);
+  EXPECT_EQ(all_of<AttitudeSample>(messages)[0].t_ns, kStart_ns);
+}
+
+TEST_F(FlightLogTest, CountsImagesWithoutTheOtherEye) {
+  const fs::path path = bag_with({}, [](rosbag::Bag& file) {
+    const std::int64_t t_ns = kStart_ns + 555'000'000;
+    file.write("/left", ros_time(t_ns), image_message(t_ns, 64, 48, "bgr8"));
+  });
+  FlightLog log(path, small_rig(), {});
+  EXPECT_EQ(all_of<StereoFrame>(read_all(log)).size(), 30u);
+  EXPECT_EQ(log.summary().dropped.at("images without the other eye's"), 1);
+}
+
+TEST_F(FlightLogTest, AttitudeMayComeFromTheImu) {
+  FlightOptions options;
+  options.left_out = {"/dji_sdk/attitude"};
+  const fs::path path = bag_with(options, [](rosbag::Bag& file) {
+    sensor_msgs::Imu message;
+    message.header = header_at(kStart_ns);
+    message.orientation.w = 1;
+    file.write("/imu", ros_time(kStart_ns), message);
+  });
+  LogConfig config;
+  config.attitude_topic = "/imu";
+  FlightLog log(path, small_rig(), config);
+  EXPECT_EQ(all_of<AttitudeSample>(read_all(log)).size(), 1u);
+}
+
+TEST_F(FlightLogTest, HeightIsOptional) {
+  FlightOptions options;
+  options.left_out = {"/dji_sdk/height_above_takeoff"};
+  FlightLog log(bag(options), small_rig(), {});
+  EXPECT_TRUE(all_of<HeightSample>(read_all(log)).empty());
+}
+
+TEST_F(FlightLogTest, NamesFileAndTopicThatIsNotThere) {
+  for (const std::string topic :
+       {"/left", "/right", "/livox/lidar", "/dji_sdk/attitude", "/dji_sdk/gps_position"}) {
+    FlightOptions options;
+    options.left_out = {topic};
+    EXPECT_THAT(open_error(bag(options)),
+                AllOf(HasSubstr("flight.bag"), HasSubstr("no topic " + topic + " "),
+                      HasSubstr("/dji_sdk/height_above_takeoff (std_msgs/Float32)")));
+  }
+}
+
+TEST_F(FlightLogTest, NamesTheWrongTypeAndTheAcceptedOnes) {
+  LogConfig config;
+  config.attitude_topic = "/dji_sdk/gps_position";
+  EXPECT_THAT(
+      open_error(bag(), small_rig(), config),
+      AllOf(HasSubstr("flight.bag"), HasSubstr("/dji_sdk/gps_position"), HasSubstr("sensor_msgs/NavSatFix"),
+            HasSubstr("geometry_msgs/QuaternionStamped, sensor_msgs/Imu")));
+}
+
+TEST_F(FlightLogTest, ARigWithoutTopicIsAConfigurationError) {
+  Rig rig = small_rig();
+  rig.lidar0->topic.clear();
+  const fs::path path = bag();
+  EXPECT_THAT(message_of<ConfigError>([&] { FlightLog log(path, rig, {}); }),
+              HasSubstr("LiDAR has no rostopic"));
+}
+
+/// 31 lidar messages of which one lies: 3.2 % of them.
+fs::path with_bad_packet(const fs::path& path) {
+  rosbag::Bag file(path.string(), rosbag::bagmode::Append);
+  livox_ros_driver::CustomMsg message = livox_message(kStart_ns, 3);
+  message.point_num = 7;
+  file.write("/livox/lidar", ros_time(kStart_ns + 1'000'000'000), message);
+  return path;
+}
+
+TEST_F(FlightLogTest, SkipsAndCountsABadMessage) {
+  LogConfig config;
+  config.max_bad_message_share = 0.04;
+  FlightLog log(with_bad_packet(bag()), small_rig(), config);
+  EXPECT_EQ(all_of<LidarPacket>(read_all(log)).size(), 30u);
+  EXPECT_EQ(log.summary().dropped.at("messages that do not decode"), 1);
+}
+
+TEST_F(FlightLogTest, TooManyBadMessagesAreFatal) {
+  LogConfig config;
+  config.max_bad_message_share = 0.03;
+  FlightLog log(with_bad_packet(bag()), small_rig(), config);
+  EXPECT_THAT(message_of<DataError>([&] { read_all(log); }),
+              AllOf(HasSubstr("flight.bag"), HasSubstr("/livox/lidar"), HasSubstr("1 of 31"),
+                    HasSubstr("point_num is 7")));
+}
+
+TEST_F(FlightLogTest, ImagesOfAnotherSizeThanTheRigsAreFatal) {
+  Rig rig = small_rig();
+  rig.cam0.camera.intrinsics.width_px = 65;
+  FlightLog log(bag(), rig, {});
+  EXPECT_THAT(message_of<DataError>([&] { read_all(log); }),
+              HasSubstr("64x48 pixels, but the rig's camera has 65x48"));
+}
+
+TEST_F(FlightLogTest, CountsMessagesWithoutAFix) {
+  const fs::path path = bag_with({}, [](rosbag::Bag& file) {
+    sensor_msgs::NavSatFix message = fix_message(kStart_ns);
+    message.status.status = sensor_msgs::NavSatStatus::STATUS_NO_FIX;
+    file.write("/dji_sdk/gps_position", ros_time(kStart_ns + 1), message);
+  });
+  FlightLog log(path, small_rig(), {});
+  EXPECT_EQ(all_of<PositionSample>(read_all(log)).size(), 150u);
+  EXPECT_EQ(log.summary().dropped.at("position messages without a measurement"), 1);
+}
+
+TEST(LogConfig, ReadsBackWhatItPrints) {
+  LogConfig config;
+  config.height_topic.reset();
+  config.max_range_m = 123;
+  const auto again = parse_config<LogConfig>(print_config(config), "printed");
+  EXPECT_FALSE(again.height_topic.has_value());
+  EXPECT_EQ(again.max_range_m, 123);
+  EXPECT_THROW(parse_config<LogConfig>("min_range_m: 5\nmax_range_m: 4\n", "text"), ConfigError);
+}
+
+}  // namespace
+}  // namespace alight::testing

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geometry_msgs/QuaternionStamped.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/NavSatFix.h>
+#include <std_msgs/Float32.h>
+
+#include "dataset/flight_log.hpp"
+#include "dataset/messages/livox_custom_msg.hpp"
+#include "geometry/geodesy.hpp"
+
+namespace alight::testing {
+
+/// A folder of this test process, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The message of the exception that `body` throws; empty if it throws none of this type.
+template <class Error>
+std::string message_of(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+/// Down-looking stereo of 64x48 pixels, already rectified, and a LiDAR; the paper's rig, small.
+Rig small_rig();
+/// The same without a right camera.
+Rig small_mono_rig();
+
+/// Times of the test flights: far from zero, like real ones.
+constexpr std::int64_t kStart_ns = 1'600'000'000'000'000'000;
+ros::Time ros_time(std::int64_t t_ns);
+std_msgs::Header header_at(std::int64_t t_ns);
+
+sensor_msgs::Image image_message(std::int64_t t_ns, int width, int height, const std::string& encoding);
+livox_ros_driver::CustomMsg livox_message(std::int64_t t_ns, int points);
+geometry_msgs::QuaternionStamped attitude_message(std::int64_t t_ns);
+sensor_msgs::NavSatFix fix_message(std::int64_t t_ns,
+                                   const Eigen::Vector3d& p_world = Eigen::Vector3d::Zero());
+std_msgs::Float32 float_message(float value);
+
+/// What a test may change of the flight that write_flight writes.
+struct FlightOptions {
+  double duration_s = 3;
+  bool right = true;
+  bool compressed = false;
+  std::vector<std::string> left_out;  ///< topics
+};
+/// A short hover over level ground 10 m below: images at 10 Hz, LiDAR 10 Hz, attitude 100 Hz, fixes 50 Hz,
+/// heights.
+void write_flight(const std::filesystem::path& path, const FlightOptions& options = {});
+
+std::vector<LogMessage> read_all(FlightLog& log);
+
+/// The bytes of a file, and of all files below a folder by relative path.
+std::string read_bytes(const std::filesystem::path& path);
+std::vector<std::pair<std::string, std::string>> read_tree(const std::filesystem::path& dir);
+void write_bytes(const std::filesystem::path& path, const std::string& bytes);
+
+}  // namespace alight::testing
