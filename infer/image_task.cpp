@@ -1,0 +1,249 @@
+#include "infer/image_task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "geometry/frames.hpp"
+
+namespace alight {
+namespace {
+
+/// The middle of the known depths, to place the LiDAR's circle in the image; `otherwise` where there are none.
+double median_depth_m(const cv::Mat& depth_m, double otherwise) {
+  std::vector<float> values;
+  for (int v = 0; v < depth_m.rows; ++v) {
+    std::copy_if(depth_m.ptr<float>(v), depth_m.ptr<float>(v) + depth_m.cols, std::back_inserter(values),
+                 [](float depth) { return depth > 0; });
+  }
+  if (values.empty()) return otherwise;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+const char* name(DepthSource source) {
+  switch (source) {
+    case DepthSource::kNone:
+      break;
+    case DepthSource::kImage:
+      return "image";
+    case DepthSource::kLidar:
+      return "lidar";
+    case DepthSource::kFallback:
+      return "fallback";
+  }
+  return "none";
+}
+
+void bind(Binder& b, ImageTaskConfig& c) {
+  b.field("max_accumulation_s", c.max_accumulation_s, "LiDAR time after which the fallback is taken",
+          between(0, 60));
+  b.field("min_fallback_s", c.min_fallback_s, "less LiDAR time is no basis for a fallback", between(0, 60));
+  b.check("min_fallback_s", c.min_fallback_s <= c.max_accumulation_s, "must not exceed max_accumulation_s");
+  b.field("step_growth", c.step_growth, "factor by which packets grow between predictions; 1: every packet",
+          between(1, 100));
+  b.field("lidar_half_fov_deg", c.lidar_half_fov_deg, "half the opening of the LiDAR's circle",
+          between(0.1, 90));
+  b.field("min_depth_m", c.min_depth_m, "nearer depth is unknown", between(0.01, 1000));
+  b.field("max_depth_m", c.max_depth_m, "farther depth is unknown", between(0.1, 10000));
+  b.check("max_depth_m", c.max_depth_m > c.min_depth_m, "must exceed min_depth_m");
+  b.section("self_evaluation", c.self_evaluation, "when a prediction is trusted");
+  b.section("interpolation", c.interpolation, "what is done when none is");
+}
+
+ImageTask::ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, DepthPredictor* predictor,
+                     std::int64_t t_ns, cv::Mat left, cv::Mat right, const Eigen::Isometry3d& T_world_camera,
+                     StageTimes stages_ms)
+    : config_(config),
+      rig_(rig),
+      predictor_(predictor),
+      T_camera_world_(T_world_camera.inverse()),
+      stereo_test_(left, right, rig),
+      known_(SparseDepth::empty(rig.intrinsics.size())),
+      fed_(SparseDepth::empty(rig.intrinsics.size())) {
+  result_.t_ns = t_ns;
+  result_.left = std::move(left);
+  result_.T_world_camera = T_world_camera;
+  result_.stages_ms = std::move(stages_ms);
+}
+
+void ImageTask::project(const WorldPacket& packet, SparseDepth& out) {
+  const StageTimer timer(result_.stages_ms, "project");
+  project_points(packet.points, T_camera_world_, rig_.intrinsics, result_.t_ns,
+                 {config_.min_depth_m, config_.max_depth_m}, out);
+}
+
+void ImageTask::offer(WorldPacketPtr packet) {
+  project(*packet, known_);
+  lidar_view_.reset();
+  waiting_.push_back(std::move(packet));
+}
+
+/// Half a packet more or less is as near to the wanted time as whole packets come.
+bool ImageTask::full() const {
+  return result_.accumulation_s + last_duration_s_ / 2 >= config_.max_accumulation_s;
+}
+
+int ImageTask::packets_wanted() const {
+  if (predictor_ == nullptr) return 1;
+  const int grown = static_cast<int>(std::ceil(fed_packets_ * config_.step_growth));
+  return std::max(1, grown - fed_packets_);
+}
+
+/// How many of the waiting packets make the next step; 0 while there are too few. The last step may be a short one.
+int ImageTask::packets_for_next_step() const {
+  const int wanted = packets_wanted();
+  double total_s = result_.accumulation_s;
+  int count = 0;
+  for (const WorldPacketPtr& packet : waiting_) {
+    ++count;
+    total_s += packet->duration_s;
+    if (count == wanted || total_s + packet->duration_s / 2 >= config_.max_accumulation_s) return count;
+  }
+  return 0;
+}
+
+void ImageTask::feed(int packets) {
+  for (int i = 0; i < packets && !waiting_.empty() && !full(); ++i) {
+    const WorldPacketPtr packet = waiting_.front();
+    waiting_.pop_front();
+    project(*packet, fed_);
+    ++fed_packets_;
+    result_.accumulation_s += packet->duration_s;
+    last_duration_s_ = packet->duration_s;
+  }
+  predicted_ = false;
+}
+
+void ImageTask::predict() {
+  if (!encoded_) {
+    const StageTimer timer(result_.stages_ms, "encode");
+    encoded_ = predictor_->encode(result_.left);
+  }
+  {
+    const StageTimer timer(result_.stages_ms, "predict");
+    prediction_m_ = predictor_->refine(*encoded_, fed_.depth_m);
+    ++result_.predictions;
+  }
+  // Written so that a NaN is unknown, too.
+  const cv::Mat usable = (prediction_m_ >= config_.min_depth_m) & (prediction_m_ <= config_.max_depth_m);
+  prediction_m_.setTo(0, ~usable);
+  predicted_ = true;
+  holdout_done_ = false;
+  result_.holdout = {};
+  result_.holdout_verdict = Verdict::kNoEvidence;
+  evaluate_stereo();
+}
+
+cv::Mat ImageTask::fov_mask() {
+  constexpr double kUsualHeight_m = 20.0;
+  return lidar_fov_mask(rig_.intrinsics, rig_.T_camera_lidar, to_radians(config_.lidar_half_fov_deg),
+                        median_depth_m(known_.depth_m, kUsualHeight_m));
+}
+
+void ImageTask::evaluate_stereo() {
+  if (!stereo_test_.has_right()) return;
+  const StageTimer timer(result_.stages_ms, "evaluate");
+  const RightView prediction = stereo_test_.reconstruct(prediction_m_);
+  if (!lidar_view_ && known_.count() > 0) {
+    lidar_view_ =
+        stereo_test_.reconstruct(interpolate_inside_fov(known_.depth_m, fov_mask(), config_.interpolation));
+  }
+  result_.stereo = stereo_test_.score(prediction, lidar_view_ ? &*lidar_view_ : nullptr);
+  const StereoTestConfig& test = config_.self_evaluation.stereo;
+  if (test.probe > 0 && paper_accepts(result_.stereo, test)) {
+    result_.stereo.peak = stereo_test_.peak(prediction_m_, prediction, test.probe);
+  }
+  result_.stereo_verdict = judge(result_.stereo, test);
+}
+
+void ImageTask::evaluate_holdout() {
+  if (holdout_done_ || waiting_.empty()) return;
+  SparseDepth holdout = SparseDepth::empty(rig_.intrinsics.size());
+  project(*waiting_.front(), holdout);
+  const StageTimer timer(result_.stages_ms, "evaluate");
+  result_.holdout = compare_with_holdout(prediction_m_, holdout.depth_m, fed_.depth_m);
+  result_.holdout_verdict = judge(result_.holdout, config_.self_evaluation.holdout);
+  holdout_done_ = true;
+}
+
+bool ImageTask::advance(bool lidar_silent) {
+  while (!done_) {
+    if (predictor_ != nullptr) {
+      if (!predicted_) predict();
+      evaluate_holdout();
+      if (decide(result_.stereo_verdict, result_.holdout_verdict, lidar_silent,
+                 config_.self_evaluation.decide_by) == Verdict::kAccept) {
+        accept();
+        break;
+      }
+    }
+    if (full()) {
+      fall_back(predictor_ != nullptr ? verdicts() : "LiDAR alone");
+    } else if (const int packets = packets_for_next_step(); packets > 0) {
+      feed(packets);
+    } else {
+      break;
+    }
+  }
+  return done_;
+}
+
+void ImageTask::close(bool lidar_silent, const std::string& why) {
+  if (advance(lidar_silent)) return;
+  const std::string reason = predictor_ != nullptr ? why + "; " + verdicts() : why;
+  feed(static_cast<int>(waiting_.size()));
+  fall_back(reason);
+}
+
+std::string ImageTask::verdicts() const {
+  char text[160];
+  std::snprintf(text, sizeof text, "prediction not trusted (stereo: %s, LiDAR hold-out: %s)",
+                name(result_.stereo_verdict), name(result_.holdout_verdict));
+  return text;
+}
+
+void ImageTask::accept() {
+  const bool image_alone = fed_packets_ == 0;
+  result_.depth_m = prediction_m_;
+  result_.pixel_source = cv::Mat::zeros(prediction_m_.size(), CV_8UC1);
+  result_.pixel_source.setTo(static_cast<int>(PixelSource::kPredicted), prediction_m_ > 0);
+  char text[96];
+  std::snprintf(text, sizeof text, "trusted (stereo: %s, LiDAR hold-out: %s)", name(result_.stereo_verdict),
+                name(result_.holdout_verdict));
+  finish(image_alone ? DepthSource::kImage : DepthSource::kLidar, text);
+}
+
+void ImageTask::fall_back(const std::string& why) {
+  if (result_.accumulation_s + last_duration_s_ / 2 < config_.min_fallback_s || fed_.count() == 0) {
+    char text[64];
+    std::snprintf(text, sizeof text, "; %.2f s of LiDAR are too little for a fallback",
+                  result_.accumulation_s);
+    return finish(DepthSource::kNone, why + text);
+  }
+  {
+    const StageTimer timer(result_.stages_ms, "interpolate");
+    result_.depth_m = interpolate_inside_fov(fed_.depth_m, fov_mask(), config_.interpolation);
+  }
+  result_.pixel_source = cv::Mat::zeros(result_.depth_m.size(), CV_8UC1);
+  result_.pixel_source.setTo(static_cast<int>(PixelSource::kInterpolated), result_.depth_m > 0);
+  finish(DepthSource::kFallback, why);
+}
+
+void ImageTask::finish(DepthSource source, std::string reason) {
+  result_.source = source;
+  result_.reason = std::move(reason);
+  result_.sparse_m = fed_.depth_m;
+  encoded_.reset();
+  waiting_.clear();
+  done_ = true;
+}
+
+DepthResult ImageTask::take() { return std::move(result_); }
+
+}  // namespace alight

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "configs/config_reader.hpp"
+#include "geometry/projection.hpp"
+#include "infer/accumulator.hpp"
+#include "infer/depth_predictor.hpp"
+#include "infer/depth_result.hpp"
+#include "infer/interpolation.hpp"
+#include "infer/self_evaluation.hpp"
+
+namespace alight {
+
+/// How one image is worked on.
+struct ImageTaskConfig {
+  double max_accumulation_s =
+      1.0;  ///< LiDAR time after which the fallback is taken (the paper's "about 1 second")
+  double min_fallback_s = 0.5;  ///< less LiDAR time than this is no basis for a fallback
+  /// Between two predictions the number of packets grows by this factor, and by one at least. 1: predict at every
+  /// packet, as the paper does; 2: at 0, 1, 2, 4, 8 packets, which bounds the work on an unfamiliar scene.
+  double step_growth = 2.0;
+  double lidar_half_fov_deg = 19.174;  ///< the Mid-40's circle
+  double min_depth_m = 0.5;
+  double max_depth_m = 150.0;
+  SelfEvaluationConfig self_evaluation;
+  InterpolationConfig interpolation;
+};
+void bind(Binder& b, ImageTaskConfig& c);
+
+/// Dynamic-time inference of one image (paper 3.2): predict from the image alone, evaluate; while not trusted, take more
+/// LiDAR, predict again, evaluate; when the LiDAR time is used up, interpolate. A packet that was not fed yet is first
+/// compared with the prediction (hold-out), then fed. Every packet costs its own projections and nothing else.
+class ImageTask {
+ public:
+  /// @param left, right rectified, cropped; `right` empty for mono. @param predictor null: LiDAR alone, which waits for
+  /// max_accumulation_s and interpolates (paper 3.3, state 8)
+  ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, DepthPredictor* predictor,
+            std::int64_t t_ns, cv::Mat left, cv::Mat right, const Eigen::Isometry3d& T_world_camera,
+            StageTimes stages_ms);
+
+  /// Puts a packet at the end of the queue. Order of the calls is the order of feeding.
+  void offer(WorldPacketPtr packet);
+  /// Goes on as far as the queue allows. @returns true when the result is final
+  bool advance(bool lidar_silent);
+  /// Ends the task with what there is.
+  void close(bool lidar_silent, const std::string& why);
+
+  std::int64_t t_ns() const { return result_.t_ns; }
+  bool done() const { return done_; }
+  /// Call once, when done.
+  DepthResult take();
+
+ private:
+  void project(const WorldPacket& packet, SparseDepth& out);
+  void feed(int packets);
+  int packets_for_next_step() const;
+  int packets_wanted() const;
+  bool full() const;
+  void predict();
+  void evaluate_stereo();
+  void evaluate_holdout();
+  cv::Mat fov_mask();
+  void accept();
+  void fall_back(const std::string& why);
+  void finish(DepthSource source, std::string reason);
+  std::string verdicts() const;
+
+  ImageTaskConfig config_;
+  RectifiedRig rig_;
+  DepthPredictor* predictor_;
+  Eigen::Isometry3d T_camera_world_;
+  StereoTest stereo_test_;
+  std::unique_ptr<EncodedImage> encoded_;
+  std::deque<WorldPacketPtr> waiting_;
+  SparseDepth known_;  // every point that came, fed or not: the reference of the stereo test
+  SparseDepth fed_;
+  int fed_packets_ = 0;
+  double last_duration_s_ = 0;
+  cv::Mat prediction_m_;
+  std::optional<RightView> lidar_view_;  // from known_
+  bool predicted_ = false;
+  bool holdout_done_ = false;
+  bool done_ = false;
+  DepthResult result_;
+};
+
+}  // namespace alight

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "configs/config_reader.hpp"
+#include "infer/depth_engine.hpp"
+#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_tracker.hpp"
+
+namespace alight {
+
+/// What makes a landing site. Files: configs/landing/*.yaml
+struct LandingConfig {
+  SiteSelectionConfig selection;
+  SiteTrackerConfig tracker;
+};
+void bind(Binder& b, LandingConfig& c);
+
+/// A site as the real left image shows it (rectified and cropped).
+struct ImageSite {
+  double u_px = 0;
+  double v_px = 0;
+  double radius_px = 0;  ///< as seen at the centre's depth
+};
+
+/// Everything known about one left image.
+struct FrameReport {
+  DepthResult depth;
+  std::optional<SiteSelection> selection;  ///< absent without trusted depth
+  SiteDecision decision;
+  std::optional<ImageSite> image_site;  ///< decision.site in the image
+
+  /// Why there is no site, or what the site is.
+  std::string site_reason() const;
+};
+
+/// Messages in, depth and landing decision per left image out: what replay and a live node run.
+class LandingPipeline {
+ public:
+  LandingPipeline(const DepthEngineConfig& engine, const LandingConfig& landing, const Rig& rig,
+                  std::shared_ptr<DepthPredictor> predictor);
+
+  /// @returns the frames that became final, in image order
+  std::vector<FrameReport> add(const LogMessage& message);
+  /// No more messages will come.
+  std::vector<FrameReport> finish();
+
+  const DepthEngine& engine() const { return engine_; }
+
+ private:
+  std::vector<FrameReport> report();
+  FrameReport report(DepthResult depth);
+
+  DepthEngine engine_;
+  SiteSelector selector_;
+  SiteTracker tracker_;
+  std::optional<std::int64_t> last_ns_;
+};
+
+/// A circle of the level camera's image in the image of the camera itself.
+ImageSite in_camera_image(const LandingSite& site, const Eigen::Matrix3d& R_level_camera,
+                          const PinholeIntrinsics& intrinsics);
+
+}  // namespace alight

@@ -1,0 +1,87 @@
+#include "infer/network_predictor.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "geometry/depth_map.hpp"
+#include "models/checkpoint.hpp"
+
+namespace alight {
+namespace {
+
+struct ImagePyramid : EncodedImage {
+  std::vector<torch::Tensor> features;
+};
+
+/// [1,3,H,W] float32, RGB in 0..1, as the network was trained with
+torch::Tensor image_tensor(const cv::Mat& image) {
+  cv::Mat rgb;
+  cv::cvtColor(image, rgb, image.channels() == 3 ? cv::COLOR_BGR2RGB : cv::COLOR_GRAY2RGB);
+  const torch::Tensor bytes = torch::from_blob(rgb.data, {1, rgb.rows, rgb.cols, 3}, torch::kUInt8);
+  return bytes.permute({0, 3, 1, 2}).to(torch::kFloat32).mul_(1.0F / 255.0F).contiguous();
+}
+
+/// [1,1,H,W] float32
+torch::Tensor depth_tensor(const cv::Mat& depth_m) {
+  torch::Tensor tensor = torch::empty({1, 1, depth_m.rows, depth_m.cols}, torch::kFloat32);
+  depth_m.copyTo(cv::Mat(depth_m.size(), CV_32FC1, tensor.data_ptr<float>()));
+  return tensor;
+}
+
+class NetworkPredictor : public DepthPredictor {
+ public:
+  NetworkPredictor(LoadedNetwork network, const PinholeIntrinsics& intrinsics)
+      : network_(std::move(network)), intrinsics_(intrinsics) {
+    network_.net->eval();
+    for (torch::Tensor& parameter : network_.net->parameters()) parameter.set_requires_grad(false);
+  }
+
+  std::unique_ptr<EncodedImage> encode(const cv::Mat& image) override {
+    check_size(image);
+    const torch::InferenceMode guard;
+    auto pyramid = std::make_unique<ImagePyramid>();
+    pyramid->features = network_.net->encode_image(image_tensor(image));
+    return pyramid;
+  }
+
+  cv::Mat refine(const EncodedImage& image, const cv::Mat& sparse_m) override {
+    check_size(sparse_m);
+    const torch::InferenceMode guard;
+    const bool perspective = network_.config.depth_kind == DepthKind::kPerspective;
+    const cv::Mat input_m = perspective ? plane_to_perspective(sparse_m, intrinsics_) : sparse_m;
+    const auto& pyramid = dynamic_cast<const ImagePyramid&>(image);
+    const torch::Tensor predicted =
+        network_.net->decode(pyramid.features, network_.net->encode_depth(depth_tensor(input_m)))
+            .to(torch::kFloat32)
+            .contiguous();
+    const cv::Mat depth_m = cv::Mat(sparse_m.size(), CV_32FC1, predicted.data_ptr<float>()).clone();
+    return perspective ? perspective_to_plane(depth_m, intrinsics_) : depth_m;
+  }
+
+ private:
+  void check_size(const cv::Mat& map) const {
+    if (map.size() != intrinsics_.size()) {
+      throw std::invalid_argument("NetworkPredictor: image and depth must have the camera's size");
+    }
+  }
+
+  LoadedNetwork network_;
+  PinholeIntrinsics intrinsics_;
+};
+
+}  // namespace
+
+std::unique_ptr<DepthPredictor> make_network_predictor(const std::filesystem::path& checkpoint,
+                                                       const PinholeIntrinsics& intrinsics, int threads) {
+  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  at::set_num_threads(threads > 0 ? threads : machine);
+  return std::make_unique<NetworkPredictor>(load_network(checkpoint), intrinsics);
+}
+
+}  // namespace alight

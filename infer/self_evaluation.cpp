@@ -1,0 +1,181 @@
+#include "infer/self_evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "geometry/reprojection.hpp"
+#include "infer/ssim.hpp"
+
+namespace alight {
+namespace {
+
+/// Pixels whose 3x3 window is valid in both.
+cv::Mat whole_windows(const cv::Mat& valid_a, const cv::Mat& valid_b) {
+  cv::Mat valid;
+  cv::bitwise_and(valid_a, valid_b, valid);
+  cv::erode(valid, valid, cv::Mat::ones(3, 3, CV_8UC1));
+  return valid;
+}
+
+}  // namespace
+
+const char* name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kAccept:
+      return "accept";
+    case Verdict::kReject:
+      return "reject";
+    case Verdict::kNoEvidence:
+      break;
+  }
+  return "no evidence";
+}
+
+void bind(Binder& b, StereoTestConfig& c) {
+  b.field("min_gain", c.min_gain, "accept when sim_pred > sim + this", between(0, 2));
+  b.field("min_contrast", c.min_contrast, "abstain when sim_d - sim is less; 0: the paper", between(0, 2));
+  b.field("min_share", c.min_share, "abstain when a smaller share of the image is comparable", between(0, 1));
+  b.field("probe", c.probe, "must beat itself moved nearer and farther by this share; 0: off, the paper",
+          between(0, 1));
+  b.field("min_peak", c.min_peak, "by so much similarity; abstain when the three differ less", between(0, 1));
+}
+
+void bind(Binder& b, HoldoutTestConfig& c) {
+  b.field("max_median_relative", c.max_median_relative, "largest median of |error| / depth", between(0, 10));
+  b.field("max_rms_relative", c.max_rms_relative, "largest RMS of error / depth", between(0, 10));
+  b.field("min_points", c.min_points, "abstain with fewer held-out pixels", at_least(1));
+}
+
+void bind(Binder& b, SelfEvaluationConfig& c) {
+  b.choice("decide_by", c.decide_by,
+           {{"stereo", DecideBy::kStereo},
+            {"lidar_holdout", DecideBy::kLidarHoldout},
+            {"either", DecideBy::kEither},
+            {"both", DecideBy::kBoth}},
+           "which test decides; both are always logged");
+  b.section("stereo", c.stereo, "right image reconstructed from the left one");
+  b.section("holdout", c.holdout, "LiDAR points that were not fed");
+}
+
+bool paper_accepts(const StereoScores& scores, const StereoTestConfig& config) {
+  if (!scores.sim || !scores.sim_pred) return false;
+  return *scores.sim_pred > *scores.sim + config.min_gain ||
+         (scores.sim_d && *scores.sim_pred > (*scores.sim + *scores.sim_d) / 2);
+}
+
+Verdict judge(const StereoScores& scores, const StereoTestConfig& config) {
+  if (!scores.sim || !scores.sim_pred || scores.share < config.min_share) return Verdict::kNoEvidence;
+  const bool gained = *scores.sim_pred > *scores.sim + config.min_gain;
+  const bool contrast = !scores.sim_d || *scores.sim_d - *scores.sim >= config.min_contrast;
+  if (!gained && !contrast) return Verdict::kNoEvidence;
+  if (!paper_accepts(scores, config)) return Verdict::kReject;
+  if (!scores.peak || *scores.peak >= config.min_peak) return Verdict::kAccept;
+  return *scores.peak <= -config.min_peak ? Verdict::kReject : Verdict::kNoEvidence;
+}
+
+StereoTest::StereoTest(const cv::Mat& left, const cv::Mat& right, const RectifiedRig& rig)
+    : rig_(rig), left_(to_luminance(left)) {
+  if (right.empty() || rig.baseline_m <= 0) return;
+  right_ = to_luminance(right);
+  ssim_plain_ = ssim_map(left_, right_);
+}
+
+RightView StereoTest::reconstruct(const cv::Mat& depth_m) const {
+  const Eigen::Isometry3d T_right_camera = rig_.T_right_camera();
+  const cv::Mat depth_right_m = reproject_depth(depth_m, rig_.intrinsics, T_right_camera, rig_.intrinsics);
+  const SampledView view =
+      sample_view(left_, rig_.intrinsics, depth_right_m, rig_.intrinsics, T_right_camera.inverse());
+  return {view.image, view.valid};
+}
+
+StereoScores StereoTest::score(const RightView& prediction, const RightView* lidar) const {
+  StereoScores scores;
+  if (!has_right()) return scores;
+  const cv::Mat counted = whole_windows(prediction.valid, lidar != nullptr ? lidar->valid : prediction.valid);
+  const int pixels = cv::countNonZero(counted);
+  if (pixels == 0) return scores;
+  scores.share = static_cast<double>(pixels) / static_cast<double>(counted.total());
+  scores.sim = cv::mean(ssim_plain_, counted)[0];
+  scores.sim_pred = cv::mean(ssim_map(prediction.luminance, right_), counted)[0];
+  if (lidar != nullptr) scores.sim_d = cv::mean(ssim_map(lidar->luminance, right_), counted)[0];
+  return scores;
+}
+
+std::optional<double> StereoTest::peak(const cv::Mat& depth_m, const RightView& prediction,
+                                       double probe) const {
+  if (!has_right()) return std::nullopt;
+  const RightView nearer = reconstruct(depth_m / (1 + probe));
+  const RightView farther = reconstruct(depth_m * (1 + probe));
+  const cv::Mat counted = whole_windows(whole_windows(nearer.valid, farther.valid), prediction.valid);
+  if (cv::countNonZero(counted) == 0) return std::nullopt;
+  const auto similarity = [&](const RightView& view) {
+    return cv::mean(ssim_map(view.luminance, right_), counted)[0];
+  };
+  return similarity(prediction) - std::max(similarity(nearer), similarity(farther));
+}
+
+HoldoutScores compare_with_holdout(const cv::Mat& prediction_m, const cv::Mat& holdout_m,
+                                   const cv::Mat& fed_m) {
+  std::vector<double> errors_m;
+  std::vector<double> relative;
+  double squares = 0;
+  double relative_squares = 0;
+  for (int v = 0; v < holdout_m.rows; ++v) {
+    for (int u = 0; u < holdout_m.cols; ++u) {
+      const double truth_m = static_cast<double>(holdout_m.at<float>(v, u));
+      if (!(truth_m > 0) || fed_m.at<float>(v, u) > 0) continue;
+      const double predicted_m = static_cast<double>(prediction_m.at<float>(v, u));
+      const double error_m = std::isfinite(predicted_m) ? std::abs(predicted_m - truth_m) : truth_m;
+      errors_m.push_back(error_m);
+      relative.push_back(error_m / truth_m);
+      squares += error_m * error_m;
+      relative_squares += relative.back() * relative.back();
+    }
+  }
+  HoldoutScores scores;
+  scores.points = static_cast<int>(errors_m.size());
+  if (errors_m.empty()) return scores;
+  const auto median = [](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  scores.median_m = median(errors_m);
+  scores.median_relative = median(relative);
+  scores.rms_m = std::sqrt(squares / scores.points);
+  scores.rms_relative = std::sqrt(relative_squares / scores.points);
+  return scores;
+}
+
+Verdict judge(const HoldoutScores& scores, const HoldoutTestConfig& config) {
+  if (scores.points < config.min_points) return Verdict::kNoEvidence;
+  const bool good =
+      scores.median_relative <= config.max_median_relative && scores.rms_relative <= config.max_rms_relative;
+  return good ? Verdict::kAccept : Verdict::kReject;
+}
+
+Verdict decide(Verdict stereo, Verdict holdout, bool lidar_silent, DecideBy decide_by) {
+  const bool one_accepts = stereo == Verdict::kAccept || holdout == Verdict::kAccept;
+  const bool one_rejects = stereo == Verdict::kReject || holdout == Verdict::kReject;
+  const bool holdout_missing = holdout == Verdict::kNoEvidence && !lidar_silent;
+  bool accepted = false;
+  switch (decide_by) {
+    case DecideBy::kStereo:
+      return stereo;
+    case DecideBy::kLidarHoldout:
+      return holdout;
+    case DecideBy::kEither:
+      accepted = one_accepts;
+      break;
+    case DecideBy::kBoth:
+      accepted = one_accepts && !one_rejects && !holdout_missing;
+      break;
+  }
+  if (accepted) return Verdict::kAccept;
+  return one_rejects ? Verdict::kReject : Verdict::kNoEvidence;
+}
+
+}  // namespace alight

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <torch/torch.h>
+
+#include "configs/config_reader.hpp"
+#include "geometry/depth_map.hpp"
+#include "models/resnet_encoder.hpp"
+
+namespace alight {
+
+/// How the two pyramids meet before every scale of the decoder (paper 3.2, "late fusion").
+enum class Fusion { kConcatenate, kSum };
+
+/// What the depth branch sees. `raw`: one channel, depth / depth_scale_m, 0 where missing (the paper).
+/// `masked`: that and a validity channel. `filled`: those two, a fill of the holes (models/sparse_fill.hpp)
+/// and the coarseness of the fill.
+enum class DepthInput { kRaw, kMasked, kFilled };
+
+/// What the decoder's last layer means. `direct`: the depth (the paper). `gated`: a depth, a correction of the
+/// fill of the sparse input, and a gate that mixes the two, so that interpolation need not be learned (METHOD,
+/// "The opponent").
+enum class Head { kDirect, kGated };
+
+/// Architecture of DepthCompletionNet. All of it is stored in a checkpoint.
+struct DepthCompletionConfig {
+  Stem stem = Stem::kDownsample;
+  Normalization normalization = Normalization::kBatch;
+  Fusion fusion = Fusion::kConcatenate;
+  std::vector<int> image_widths{64, 128, 256, 512};
+  std::vector<int> depth_widths{32, 64, 128, 256};
+  std::vector<int> decoder_widths{128, 96, 64, 32, 16};
+  DepthInput depth_input = DepthInput::kFilled;
+  Head head = Head::kGated;
+  double depth_scale_m = 20.0;
+  double min_depth_m = 0.5;
+  double max_depth_m = 150.0;
+  DepthKind depth_kind = DepthKind::kPlane;
+};
+void bind(Binder& b, DepthCompletionConfig& c);
+
+/// ResNet-18 encoder-decoder for depth completion (paper 3.2; METHOD, "Network"). Image and sparse depth are
+/// encoded separately, so that an image is encoded once and only the depth branch and the decoder run again
+/// as points arrive:
+///
+///     const auto image_pyramid = net->encode_image(image);
+///     for (...) depth_m = net->decode(image_pyramid, net->encode_depth(sparse_m));
+///
+/// Any height and width: the input is padded to the encoder's stride inside and the output is cropped back.
+/// Depth is of `config().depth_kind`, input and output alike; models/depth_conversion.hpp converts.
+class DepthCompletionNetImpl : public torch::nn::Module {
+ public:
+  /// @throws std::invalid_argument for widths that do not fit together (`bind` reports the same as
+  /// ConfigError)
+  explicit DepthCompletionNetImpl(const DepthCompletionConfig& config = {});
+
+  /// @param image [B,3,H,W] float32, RGB in 0..1
+  /// @returns features, fine to coarse; meant for decode() alone
+  std::vector<torch::Tensor> encode_image(const torch::Tensor& image);
+
+  /// @param sparse_m [B,1,H,W] float32, metres, 0 = missing (all zero: no LiDAR)
+  /// @returns [0] the normalised input [B,C,H,W], then features, fine to coarse; meant for decode() alone
+  std::vector<torch::Tensor> encode_depth(const torch::Tensor& sparse_m);
+
+  /// @returns [B,1,H,W] float32, metres, within [min_depth_m, max_depth_m], no holes. The layer's output x
+  /// becomes min * (max / min)^v with v = sigmoid(x): equal steps are equal ratios of depth. Gated:
+  /// v = (1 - g) sigmoid(x) + g (v_fill + r), |r| <= 0.05, and g = 0 where the input has no point at all.
+  torch::Tensor decode(const std::vector<torch::Tensor>& image_pyramid,
+                       const std::vector<torch::Tensor>& depth_pyramid);
+
+  /// decode(encode_image(image), encode_depth(sparse_m))
+  torch::Tensor forward(const torch::Tensor& image, const torch::Tensor& sparse_m);
+
+  const DepthCompletionConfig& config() const { return config_; }
+
+ private:
+  torch::Tensor to_depth(const torch::Tensor& raw, const torch::Tensor& depth_input) const;
+
+  DepthCompletionConfig config_;
+  ResnetEncoder image_encoder_{nullptr};
+  ResnetEncoder depth_encoder_{nullptr};
+  std::vector<torch::nn::Sequential> decoder_;
+  torch::nn::Conv2d head_{nullptr};
+};
+TORCH_MODULE(DepthCompletionNet);
+
+}  // namespace alight

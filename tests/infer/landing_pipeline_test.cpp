@@ -1,0 +1,81 @@
+#include "infer/landing_pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/infer/fakes.hpp"
+
+namespace alight {
+namespace {
+
+using fakes::kStart_ns;
+
+constexpr double kHeight_m = 12.0;
+
+DepthEngineConfig small_engine() {
+  DepthEngineConfig config;
+  config.width_px = 160;
+  config.height_px = 144;
+  return config;
+}
+
+std::vector<FrameReport> fly(const std::vector<LogMessage>& messages, std::shared_ptr<DepthPredictor> net) {
+  LandingPipeline pipeline(small_engine(), {}, fakes::small_rig(), std::move(net));
+  std::vector<FrameReport> frames;
+  const auto take = [&](std::vector<FrameReport> more) {
+    for (FrameReport& frame : more) frames.push_back(std::move(frame));
+  };
+  for (const LogMessage& message : messages) take(pipeline.add(message));
+  take(pipeline.finish());
+  return frames;
+}
+
+TEST(LandingPipeline, LevelGroundIsAcceptedInTheFifthFrame) {
+  fakes::LevelWorld world(kHeight_m);
+  const auto frames =
+      fly(fakes::flight(world, {2.0}), std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
+  ASSERT_GT(frames.size(), 20U);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    ASSERT_TRUE(frames[i].decision.site) << i << " " << frames[i].site_reason();
+    EXPECT_EQ(frames[i].decision.site->accepted, i >= 4) << i;
+    // The camera sits at the first fix; the ground is kHeight_m below.
+    EXPECT_NEAR(frames[i].decision.site->p_world.z(), -kHeight_m, 0.05);
+    EXPECT_NEAR(frames[i].image_site->radius_px, frames[i].decision.site->circle.radius_px, 1.0);
+  }
+}
+
+TEST(LandingPipeline, NoTrustedDepthNoSiteAndWanderAfterFiveSeconds) {
+  fakes::LevelWorld world(kHeight_m);
+  fakes::FlightPlan plan;
+  plan.duration_s = 7;
+  plan.image_hz = 4;
+  plan.lidar_begin_s = 1e6;
+  plan.right = false;
+  const auto frames =
+      fly(fakes::flight(world, plan), std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
+  for (const FrameReport& frame : frames) {
+    EXPECT_FALSE(frame.decision.site);
+    EXPECT_EQ(frame.site_reason().rfind("no trusted depth", 0), 0U);
+    EXPECT_EQ(frame.decision.wander,
+              frame.depth.t_ns - frames.front().depth.t_ns > 5 * kNanosecondsPerSecond);
+  }
+}
+
+TEST(InCameraImage, ALevelCircleIsSeenWhereItsCentreIs) {
+  const PinholeIntrinsics k{440, 440, 175.5, 175.5, 352, 352};
+  LandingSite site;
+  site.p_level = {1.0, -2.0, 20.0};
+  site.depth_m = 20;
+  site.radius_m = 3;
+  const ImageSite level = in_camera_image(site, Eigen::Matrix3d::Identity(), k);
+  EXPECT_NEAR(level.u_px, 175.5 + 22, 1e-9);
+  EXPECT_NEAR(level.v_px, 175.5 - 44, 1e-9);
+  EXPECT_NEAR(level.radius_px, 66, 1e-9);
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const ImageSite turned = in_camera_image(site, R, k);
+  const Eigen::Vector3d p_camera = R.transpose() * site.p_level;
+  EXPECT_NEAR(turned.u_px, 175.5 + 440 * p_camera.x() / p_camera.z(), 1e-9);
+  EXPECT_NEAR(turned.radius_px, 440 * 3 / p_camera.z(), 1e-9);
+}
+
+}  // namespace
+}  // namespace alight

@@ -1,0 +1,148 @@
+#include "models/checkpoint.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "configs/errors.hpp"
+#include "tests/models/tiny_net.hpp"
+
+namespace alight {
+namespace {
+
+namespace fs = std::filesystem;
+using test::random_sparse_m;
+using test::tiny_config;
+using testing::HasSubstr;
+
+class Checkpoint : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        fs::temp_directory_path() /
+        ("alight_checkpoint_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    torch::manual_seed(7);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static std::string bytes(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  template <class Function>
+  static std::string data_error(Function function) {
+    try {
+      function();
+    } catch (const DataError& e) {
+      return e.what();
+    }
+    return "no DataError";
+  }
+
+  fs::path folder_;
+};
+
+void train_step(DepthCompletionNet net, torch::optim::Adam& adam, int seed) {
+  torch::manual_seed(static_cast<std::uint64_t>(seed));
+  net->train();
+  adam.zero_grad();
+  net->forward(torch::rand({2, 3, 32, 32}), random_sparse_m(2, 32, 32)).log().square().mean().backward();
+  adam.step();
+}
+
+TEST_F(Checkpoint, RoundTripIsBitIdentical) {
+  DepthCompletionNet net(tiny_config());
+  torch::optim::Adam adam(net->parameters(), 1e-3);
+  train_step(net, adam, 1);  // moves the running statistics too
+  save_checkpoint(folder_ / "net.pt", net, {3, 77, "seed: 1\n"});
+  LoadedNetwork loaded = load_network(folder_ / "net.pt");
+  EXPECT_EQ(print_config(loaded.config), print_config(net->config()));
+  EXPECT_EQ(loaded.info.epoch, 3);
+  EXPECT_EQ(loaded.info.step, 77);
+  EXPECT_EQ(loaded.info.train_config, "seed: 1\n");
+  EXPECT_FALSE(loaded.net->is_training());
+  net->eval();
+  torch::NoGradGuard no_grad;
+  const torch::Tensor image = torch::rand({1, 3, 33, 47});
+  const torch::Tensor sparse_m = random_sparse_m(1, 33, 47);
+  EXPECT_TRUE(torch::equal(loaded.net->forward(image, sparse_m), net->forward(image, sparse_m)));
+}
+
+TEST_F(Checkpoint, EqualNetworksAreEqualFiles) {
+  for (const char* name : {"a.pt", "b.pt"}) {
+    torch::manual_seed(5);
+    DepthCompletionNet net(tiny_config());
+    torch::optim::Adam adam(net->parameters(), 1e-3);
+    train_step(net, adam, 1);
+    save_checkpoint(folder_ / name, net, {}, &adam);
+  }
+  EXPECT_EQ(bytes(folder_ / "a.pt"), bytes(folder_ / "b.pt"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
+}
+
+TEST_F(Checkpoint, ResumedOptimizerEqualsUninterrupted) {
+  DepthCompletionNet net(tiny_config());
+  torch::optim::Adam adam(net->parameters(), 1e-3);
+  train_step(net, adam, 1);
+  save_checkpoint(folder_ / "net.pt", net, {}, &adam);
+  train_step(net, adam, 2);
+
+  DepthCompletionNet resumed(tiny_config());
+  torch::optim::Adam resumed_adam(resumed->parameters(), 1e-3);
+  load_checkpoint(folder_ / "net.pt", resumed, &resumed_adam);
+  train_step(resumed, resumed_adam, 2);
+  const auto expected = net->named_parameters();
+  for (const auto& item : resumed->named_parameters()) {
+    EXPECT_TRUE(torch::equal(item.value(), expected[item.key()])) << item.key();
+  }
+}
+
+TEST_F(Checkpoint, OtherNetworkNamesTheFirstTensorAndBothShapes) {
+  DepthCompletionNet net(tiny_config());
+  save_checkpoint(folder_ / "net.pt", net);
+  DepthCompletionConfig wider = tiny_config();
+  wider.image_widths = {6, 4, 8, 8};
+  DepthCompletionNet other(wider);
+  const std::string message = data_error([&] { load_checkpoint(folder_ / "net.pt", other); });
+  EXPECT_THAT(message,
+              HasSubstr("net.pt: another network: tensor image_encoder.stem.conv.weight is [4, 3, 7, 7]"));
+  EXPECT_THAT(message, HasSubstr("[6, 3, 7, 7] in this network"));
+}
+
+TEST_F(Checkpoint, WhatIsNoCheckpointIsRefused) {
+  EXPECT_THAT(data_error([&] { load_network(folder_ / "none.pt"); }), HasSubstr("none.pt: no such file"));
+  std::ofstream(folder_ / "text.pt") << "not a network";
+  EXPECT_THAT(data_error([&] { load_network(folder_ / "text.pt"); }), HasSubstr("not a checkpoint"));
+  std::ofstream(folder_ / "empty.pt").flush();
+  EXPECT_THAT(data_error([&] { load_network(folder_ / "empty.pt"); }), HasSubstr("not a checkpoint"));
+  torch::save(torch::ones({3}), (folder_ / "tensor.pt").string());
+  EXPECT_THAT(data_error([&] { load_network(folder_ / "tensor.pt"); }), HasSubstr("not a checkpoint"));
+  EXPECT_THAT(data_error([&] { load_network(folder_); }), HasSubstr("no such file"));
+}
+
+TEST_F(Checkpoint, CutFileIsRefused) {
+  DepthCompletionNet net(tiny_config());
+  save_checkpoint(folder_ / "net.pt", net);
+  fs::resize_file(folder_ / "net.pt", fs::file_size(folder_ / "net.pt") / 2);
+  EXPECT_THAT(data_error([&] { load_network(folder_ / "net.pt"); }), HasSubstr("not a checkpoint"));
+}
+
+TEST_F(Checkpoint, NewerVersionIsRefused) {
+  torch::serialize::OutputArchive archive;
+  archive.write("alight_checkpoint_version", c10::IValue(kCheckpointVersion + 1));
+  archive.save_to((folder_ / "newer.pt").string());
+  EXPECT_THAT(data_error([&] { load_network(folder_ / "newer.pt"); }), HasSubstr("newer than this program"));
+}
+
+TEST_F(Checkpoint, UnwritableFolderIsADataError) {
+  DepthCompletionNet net(tiny_config());
+  EXPECT_THROW(save_checkpoint(folder_ / "absent" / "net.pt", net), DataError);
+}
+
+}  // namespace
+}  // namespace alight

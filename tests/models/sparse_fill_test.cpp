@@ -1,0 +1,61 @@
+#include "models/sparse_fill.hpp"
+
+#include <gtest/gtest.h>
+
+namespace alight {
+namespace {
+
+TEST(SparseFill, GivenValuesStayAsTheyAre) {
+  torch::manual_seed(1);
+  const torch::Tensor value = torch::rand({2, 1, 13, 17});
+  const torch::Tensor valid = (torch::rand({2, 1, 13, 17}) < 0.2).to(torch::kFloat32);
+  const SparseFill fill = fill_pyramid(value, valid);
+  EXPECT_TRUE(torch::equal(fill.value * valid, value * valid));
+  EXPECT_TRUE(torch::equal(fill.coarseness * valid, torch::zeros_like(valid)));
+  EXPECT_GT((fill.coarseness + valid).min().item<float>(), 0);
+}
+
+TEST(SparseFill, OneValueFillsTheWholeMap) {
+  torch::Tensor value = torch::zeros({1, 1, 11, 7});
+  torch::Tensor valid = torch::zeros({1, 1, 11, 7});
+  value[0][0][9][2] = 0.75F;
+  valid[0][0][9][2] = 1;
+  const SparseFill fill = fill_pyramid(value, valid);
+  EXPECT_TRUE(torch::allclose(fill.value, torch::full_like(value, 0.75)));
+}
+
+TEST(SparseFill, StaysWithinTheValuesGiven) {
+  torch::manual_seed(2);
+  const torch::Tensor value = torch::rand({1, 1, 33, 41}) + 3;
+  const torch::Tensor valid = (torch::rand({1, 1, 33, 41}) < 0.05).to(torch::kFloat32);
+  const torch::Tensor filled = fill_pyramid(value, valid).value;
+  EXPECT_GE(filled.min().item<float>(), 3 - 1e-5);
+  EXPECT_LE(filled.max().item<float>(), 4 + 1e-5);
+}
+
+TEST(SparseFill, FollowsASlopeBetweenThePoints) {
+  const torch::Tensor value = torch::arange(64, torch::kFloat32).view({1, 1, 1, 64}).expand({1, 1, 64, 64});
+  torch::manual_seed(3);
+  const torch::Tensor valid = (torch::rand({1, 1, 64, 64}) < 0.25).to(torch::kFloat32);
+  const torch::Tensor error = (fill_pyramid(value, valid).value - value).abs();
+  EXPECT_LT(error.mean().item<float>(), 0.5);  // pixels; half the distance to the next point
+}
+
+TEST(SparseFill, EmptyMapIsZeroAndCoarsest) {
+  const torch::Tensor none = torch::zeros({1, 1, 5, 6});
+  const SparseFill fill = fill_pyramid(none, none);
+  EXPECT_EQ(fill.value.abs().max().item<float>(), 0);
+  EXPECT_EQ(fill.coarseness.min().item<float>(), 1);
+}
+
+TEST(SparseFill, SamplesDoNotMix) {
+  torch::Tensor value = torch::ones({2, 1, 8, 8});
+  torch::Tensor valid = torch::zeros({2, 1, 8, 8});
+  valid[1] = 1;
+  const SparseFill fill = fill_pyramid(value, valid);
+  EXPECT_EQ(fill.value[0].abs().max().item<float>(), 0);
+  EXPECT_EQ(fill.value[1].min().item<float>(), 1);
+}
+
+}  // namespace
+}  // namespace alight

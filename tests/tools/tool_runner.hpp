@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace alight::test {
+
+/// What a tool said.
+struct ToolRun {
+  int exit_code = -1;
+  std::string out;  ///< stdout and stderr
+};
+
+/// Runs `build/bin/<command line>` in the source folder, as the README's examples are run.
+ToolRun run_tool(const std::string& command_line);
+
+/// A fresh folder of its own for the current test.
+std::filesystem::path test_folder();
+
+/// A folder with one short simulated flight (`quick.bag`, `quick.truth`), made once per process.
+const std::filesystem::path& quick_flight();
+
+}  // namespace alight::test

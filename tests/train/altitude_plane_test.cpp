@@ -1,0 +1,34 @@
+#include "train/altitude_plane.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace alight {
+namespace {
+
+torch::Tensor intrinsics() { return torch::tensor({50.0F, 40.0F, 10.0F, 6.0F}); }
+
+TEST(AltitudePlane, LookingDownItIsTheHeightEverywhere) {
+  const torch::Tensor plane = altitude_plane(12.5, Eigen::Vector3d::UnitZ(), intrinsics(), 13, 21, 100);
+  EXPECT_TRUE(torch::allclose(plane, torch::full({1, 1, 13, 21}, 12.5)));
+}
+
+TEST(AltitudePlane, TiltedEveryPixelLiesOnTheGround) {
+  const double tilt = 0.3;
+  const Eigen::Vector3d down(std::sin(tilt), 0, std::cos(tilt));
+  const torch::Tensor plane = altitude_plane(20, down, intrinsics(), 13, 21, 1000);
+  for (const auto& [row, column] : {std::pair<int, int>{0, 0}, {6, 10}, {12, 20}, {3, 17}}) {
+    const double z = plane[0][0][row][column].item<double>();
+    const Eigen::Vector3d p_camera((column - 10.0) / 50 * z, (row - 6.0) / 40 * z, z);
+    EXPECT_NEAR(p_camera.dot(down), 20, 1e-4);
+  }
+}
+
+TEST(AltitudePlane, AboveTheHorizonIsTheLimit) {
+  const torch::Tensor plane = altitude_plane(20, -Eigen::Vector3d::UnitZ(), intrinsics(), 3, 3, 150);
+  EXPECT_TRUE(torch::equal(plane, torch::full({1, 1, 3, 3}, 150.0F)));
+}
+
+}  // namespace
+}  // namespace alight

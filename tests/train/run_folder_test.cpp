@@ -1,0 +1,48 @@
+#include "train/run_folder.hpp"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "configs/errors.hpp"
+
+namespace alight {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunFolderTest : public testing::Test {
+ protected:
+  void SetUp() override { fs::remove_all(path_); }
+  void TearDown() override { fs::remove_all(path_); }
+  std::string text(const std::string& name) const {
+    std::ifstream stream(path_ / name);
+    std::stringstream content;
+    content << stream.rdbuf();
+    return content.str();
+  }
+  const fs::path path_ = fs::temp_directory_path() / "alight_run_folder" / "run";
+};
+
+TEST_F(RunFolderTest, WritesFilesAndMetrics) {
+  RunFolder folder(path_);
+  folder.write("config.yaml", "seed: 1\n");
+  folder.append_metrics({"epoch", "total"});
+  folder.append_metrics({"1", "0.5"});
+  EXPECT_EQ(text("config.yaml"), "seed: 1\n");
+  EXPECT_EQ(text("metrics.csv"), "epoch,total\n1,0.5\n");
+}
+
+TEST_F(RunFolderTest, RefusesAnEarlierRun) {
+  { RunFolder(path_).write("config.yaml", "seed: 1\n"); }
+  EXPECT_THROW(RunFolder{path_}, DataError);
+  EXPECT_EQ(text("config.yaml"), "seed: 1\n");
+}
+
+TEST_F(RunFolderTest, TakesAnEmptyFolder) {
+  fs::create_directories(path_);
+  EXPECT_NO_THROW(RunFolder{path_});
+}
+
+}  // namespace
+}  // namespace alight

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <torch/torch.h>
+
+#include "configs/config_reader.hpp"
+
+namespace alight {
+
+/// `share`: a random share of the points (the paper). `window`: the points of an accumulation window, as the
+/// onboard loop sees them.
+enum class DensityMode { kShare, kWindow };
+
+/// `batch`: one draw for the whole batch (the paper). `sample`: one for each of its samples, so that batch
+/// normalisation sees all densities in every step.
+enum class DensityDraw { kBatch, kSample };
+
+/// Mixed-density training (paper 3.2, "Training Strategy"; METHOD, "Mixed-density training").
+struct DensitySamplingConfig {
+  DensityMode mode = DensityMode::kShare;
+  DensityDraw draw = DensityDraw::kBatch;
+  double no_lidar_probability = 0.2;
+  double min_share = 0.1;
+  double max_share = 0.5;
+  double window_begin_s = 0;  ///< relative to the image
+  double window_min_s = 0.05;
+  double window_max_s = 1.0;
+  double no_image_probability = 0;  ///< of the draws with LiDAR
+};
+void bind(Binder& b, DensitySamplingConfig& c);
+
+/// What the network is fed.
+struct NetworkInput {
+  torch::Tensor image;     ///< [B,3,H,W]; zeros where the image was dropped
+  torch::Tensor sparse_m;  ///< [B,1,H,W] metres, 0 = missing or not drawn
+};
+
+/// Draws what is fed of a batch. All randomness comes from `generator`.
+/// @param image [B,3,H,W] @param sparse_m [B,1,H,W] the full window @param offset_s [B,1,H,W] t_point -
+/// t_image
+NetworkInput sample_density(const torch::Tensor& image, const torch::Tensor& sparse_m,
+                            const torch::Tensor& offset_s, const DensitySamplingConfig& config,
+                            torch::Generator& generator);
+
+/// Keeps every point with probability `share`; all at 1, none at 0. @param share [B,1,1,1] or scalar
+torch::Tensor keep_share(const torch::Tensor& sparse_m, const torch::Tensor& share,
+                         torch::Generator& generator);
+
+/// Keeps the points with begin_s <= offset < end_s. @param end_s [B,1,1,1]
+torch::Tensor keep_window(const torch::Tensor& sparse_m, const torch::Tensor& offset_s, double begin_s,
+                          const torch::Tensor& end_s);
+
+}  // namespace alight

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include <spdlog/spdlog.h>
+
+#include "cli/command_line.hpp"
+#include "models/network_summary.hpp"
+#include "train/run_folder.hpp"
+#include "train/train_config.hpp"
+#include "train/trainer.hpp"
+
+namespace {
+
+using namespace alight;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  alight-train --config configs/train/demo.yaml --output runs/demo\n"
+    "  alight-train --config configs/train/demo.yaml --output runs/longer --set train.epochs=30\n"
+    "  alight-train --config configs/train/paper.yaml --print-model\n"
+    "  alight-train --config configs/train/paper.yaml --print-config\n";
+
+struct Options {
+  ConfigOptions config;
+  std::string output;
+  bool print_model = false;
+  int model_size_px = 352;
+};
+
+void add_options(CLI::App& app, Options& options) {
+  add_config_options(app, options.config);
+  app.add_option("-o,--output", options.output, "Folder of the run; must not exist yet");
+  app.add_flag("--print-model", options.print_model,
+               "Print the network's layers, parameters and GFLOP, then exit");
+  app.add_option("--model-size", options.model_size_px, "Image side for --print-model, pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(32, 4096));
+  app.footer(kExamples);
+}
+
+/// The flights to learn from: those named, or all that are not held out.
+std::vector<std::string> training_flights(const TrainConfig& config) {
+  if (!config.train.flights.empty()) return config.train.flights;
+  std::vector<std::string> names;
+  for (const FlightEntry& flight : read_dataset_info(config.dataset).flights) {
+    const auto& held_out = config.validation.flights;
+    if (std::find(held_out.begin(), held_out.end(), flight.name) == held_out.end())
+      names.push_back(flight.name);
+  }
+  if (names.empty()) throw ConfigError("validation.flights holds out every flight of " + config.dataset);
+  return names;
+}
+
+void print_result(const ValidationReport& report) {
+  const ValidationRow& network = report.at(0.3);
+  std::printf("%s", report.table().c_str());
+  std::printf("validation %s: network %.1f mm, altitude plane %.1f mm, fill without network %.1f mm\n",
+              network.name.c_str(), network.ground_truth.rmse_mm(),
+              report.altitude_plane.ground_truth.rmse_mm(), report.fill_at(0.3).ground_truth.rmse_mm());
+}
+
+int train(const TrainConfig& config, const std::string& output) {
+  DatasetSource training(config.dataset, training_flights(config), /*with_dense=*/false);
+  std::optional<DatasetSource> validation;
+  if (!config.validation.flights.empty()) {
+    validation.emplace(config.dataset, config.validation.flights, /*with_dense=*/true);
+  }
+  RunFolder folder(output);
+  folder.write("config.yaml", print_config(config));
+  Trainer trainer(config, training, validation ? &*validation : nullptr, folder);
+  spdlog::info("{} samples to learn from, {} held out, {} threads", training.size(),
+               validation ? validation->size() : 0, at::get_num_threads());
+  trainer.run();
+  if (const auto report = trainer.evaluate_best()) print_result(*report);
+  std::printf("wrote %s\n", folder.file("best.pt").string().c_str());
+  return kExitOk;
+}
+
+int run(const Options& options) {
+  const auto config = load<TrainConfig>(options.config);
+  if (print_if_asked(options.config, config)) return kExitOk;
+  if (options.print_model) {
+    const std::string table =
+        describe_network(DepthCompletionNet(config.model), options.model_size_px, options.model_size_px);
+    std::fputs(table.c_str(), stdout);
+    return kExitOk;
+  }
+  if (options.output.empty())
+    throw ConfigError("--output is missing: name the folder that the run is written to");
+  return train(config, options.output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("alight-train: learns depth completion from a data set of alight-dataset");
+  Options options;
+  add_options(app, options);
+  return run_tool(app, argc, argv, [&] { return run(options); });
+}

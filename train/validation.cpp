@@ -1,0 +1,153 @@
+#include "train/validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "models/depth_conversion.hpp"
+#include "models/sparse_fill.hpp"
+#include "train/altitude_plane.hpp"
+#include "train/density_sampling.hpp"
+
+namespace alight {
+namespace {
+
+/// One sample as a batch of one.
+struct Scene {
+  torch::Tensor image;          // [1,3,H,W]
+  torch::Tensor sparse_m;       // [1,1,H,W]
+  torch::Tensor dense_m;        // [1,1,H,W], undefined if there is none
+  torch::Tensor intrinsics_px;  // [1,4]
+};
+
+Scene scene(const DepthSample& sample) {
+  return {sample.left.unsqueeze(0), sample.sparse.unsqueeze(0),
+          sample.dense.defined() ? sample.dense.unsqueeze(0) : torch::Tensor(),
+          sample.intrinsics.unsqueeze(0)};
+}
+
+void add(ValidationRow& row, const Scene& scene, const torch::Tensor& prediction_m,
+         const torch::Tensor& fed_m) {
+  const torch::Tensor known = scene.sparse_m > 0;
+  row.ground_truth.add(prediction_m, scene.sparse_m, known);
+  row.held_out.add(prediction_m, scene.sparse_m, known & (fed_m <= 0));
+  if (scene.dense_m.defined()) row.dense.add(prediction_m, scene.dense_m, scene.dense_m > 0);
+}
+
+/// What the points say without a network, interpolated as the gated network's own input is.
+torch::Tensor interpolated_m(const torch::Tensor& fed_m) {
+  const torch::Tensor valid = (fed_m > 0).to(fed_m.dtype());
+  return fill_pyramid(fed_m.clamp_min(1e-3).log(), valid).value.exp();
+}
+
+const ValidationRow& nearest_row(const std::vector<ValidationRow>& rows, double share) {
+  const auto further = [share](const ValidationRow& a, const ValidationRow& b) {
+    return std::abs(a.share - share) < std::abs(b.share - share);
+  };
+  return *std::min_element(rows.begin(), rows.end(), further);
+}
+
+void add_network(ValidationReport& report, DepthCompletionNet net, const Scene& scene,
+                 torch::Generator& generator) {
+  const DepthKind kind = net->config().depth_kind;
+  const auto image_pyramid = net->encode_image(scene.image);
+  for (std::size_t i = 0; i < report.network.size(); ++i) {
+    ValidationRow& row = report.network[i];
+    const torch::Tensor fed_m = keep_share(scene.sparse_m, torch::tensor(row.share), generator);
+    const auto depth_pyramid = net->encode_depth(to_network_depth(fed_m, scene.intrinsics_px, kind));
+    const torch::Tensor depth = net->decode(image_pyramid, depth_pyramid);
+    add(row, scene, from_network_depth(depth, scene.intrinsics_px, kind), fed_m);
+    if ((fed_m > 0).any().item<bool>()) add(report.fill[i], scene, interpolated_m(fed_m), fed_m);
+  }
+}
+
+void add_altitude_plane(ValidationReport& report, const Scene& scene, double height_m,
+                        const Eigen::Vector3d& down_camera, double max_depth_m) {
+  if (!std::isfinite(height_m) || !down_camera.allFinite()) return;
+  const torch::Tensor plane_m = altitude_plane(height_m, down_camera, scene.intrinsics_px[0],
+                                               scene.sparse_m.size(2), scene.sparse_m.size(3), max_depth_m);
+  add(report.altitude_plane, scene, plane_m, torch::zeros_like(scene.sparse_m));
+}
+
+ValidationReport empty_report(const std::vector<double>& shares) {
+  ValidationReport report;
+  for (const double share : shares) {
+    char name[32];
+    std::snprintf(name, sizeof name, "P=%g", share);
+    report.network.push_back({name, share, {}, {}, {}});
+    report.fill.push_back({std::string("fill ") + name, share, {}, {}, {}});
+  }
+  report.altitude_plane.name = "altitude plane";
+  return report;
+}
+
+std::string cell(const ErrorMeter& meter) {
+  if (meter.pixels() == 0) return "         -";
+  char text[32];
+  std::snprintf(text, sizeof text, "%10.1f", meter.rmse_mm());
+  return text;
+}
+
+}  // namespace
+
+void bind(Binder& b, ValidationConfig& c) {
+  b.field("flights", c.flights, "flights that are held out of training; none: no validation");
+  b.field("shares", c.shares, "shares of the points fed (P)", between(0, 1));
+  b.field("samples", c.samples, "samples after every epoch, evenly spread; 0: all", at_least(0));
+  b.field("final_samples", c.final_samples, "samples at the end of the run; 0: all", at_least(0));
+  b.check("shares", !c.shares.empty(), "expected at least one share");
+}
+
+double ValidationReport::score_mm() const {
+  double sum = 0;
+  for (const ValidationRow& row : network) sum += std::log(std::max(row.ground_truth.rmse_mm(), 1e-3));
+  return std::exp(sum / static_cast<double>(network.size()));
+}
+
+const ValidationRow& ValidationReport::at(double share) const { return nearest_row(network, share); }
+const ValidationRow& ValidationReport::fill_at(double share) const { return nearest_row(fill, share); }
+
+std::string ValidationReport::table() const {
+  std::string text = "RMSE [mm]       LiDAR pixels  not fed of them  dense truth\n";
+  const auto row_text = [&](const ValidationRow& row) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%-18s", row.name.c_str());
+    text += name + cell(row.ground_truth) + "     " + cell(row.held_out) + "   " + cell(row.dense) + "\n";
+  };
+  for (const ValidationRow& row : network) row_text(row);
+  for (const ValidationRow& row : fill) {
+    if (row.ground_truth.pixels() > 0) row_text(row);
+  }
+  row_text(altitude_plane);
+  return text;
+}
+
+std::vector<std::size_t> spread(std::size_t size, int count) {
+  const std::size_t wanted = count <= 0 ? size : std::min(size, static_cast<std::size_t>(count));
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < wanted; ++i) chosen.push_back(i * size / wanted);
+  return chosen;
+}
+
+ValidationReport validate(DepthCompletionNet net, SampleSource& source,
+                          const std::vector<std::size_t>& samples, const std::vector<double>& shares,
+                          std::uint64_t seed, const std::function<void()>& progress) {
+  torch::NoGradGuard no_grad;
+  const bool was_training = net->is_training();
+  net->eval();
+  ValidationReport report = empty_report(shares);
+  for (const std::size_t index : samples) {
+    const DepthSample sample = source.get(index);
+    const Scene view = scene(sample);
+    torch::Generator generator = at::detail::createCPUGenerator(seed + index);
+    add_network(report, net, view, generator);
+    add_altitude_plane(report, view, sample.height_m, source.down_camera(index), net->config().max_depth_m);
+    if (progress) progress();
+  }
+  report.samples = samples.size();
+  net->train(was_training);
+  return report;
+}
+
+}  // namespace alight
