@@ -1,9 +1,11 @@
 #include "cli/command_line.hpp"
 
+#include <cstdlib>
 #include <exception>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 namespace alight {
 namespace {
@@ -44,6 +46,12 @@ int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& b
   } catch (const std::exception& e) {
     return fail(e, kExitFailure);
   }
+}
+
+void restart_with_short_spin(char** argv) {
+  if (std::getenv("GOMP_SPINCOUNT") != nullptr || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+  setenv("GOMP_SPINCOUNT", "1000", 1);
+  execv("/proc/self/exe", argv);  // returns only where it fails, and then the tool is merely slower
 }
 
 void add_config_options(CLI::App& app, ConfigOptions& options, const std::string& default_file) {

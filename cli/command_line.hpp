@@ -18,6 +18,12 @@ enum ExitCode { kExitOk = 0, kExitFailure = 1, kExitUsage = 2 };
 /// Adds --version, --quiet and --verbose. `body` returns the exit code.
 int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 
+/// For tools that compute with LibTorch; the first call of main. libgomp's threads spin while they wait for each other,
+/// and where other programs want the same cores that slows a network by ten times and more; with a short spin they
+/// sleep instead. libgomp reads the setting when it is loaded, so the tool starts itself anew, once, with it in the
+/// environment. What the user set (GOMP_SPINCOUNT or OMP_WAIT_POLICY) stays.
+void restart_with_short_spin(char** argv);
+
 /// The options through which every tool takes its YAML file.
 struct ConfigOptions {
   std::string file;                    ///< empty: the built-in defaults

@@ -3,7 +3,7 @@
 #   target_link_libraries(app alight::infer)     # or alight::landing, which is free of torch
 include(CMakePackageConfigHelpers)
 
-set(ALIGHT_PACKAGE_TARGETS alight_configs alight_cli alight_geometry alight_dataset alight_landing
+set(ALIGHT_PACKAGE_TARGETS alight_configs alight_cli alight_geometry alight_alignment alight_dataset alight_landing
                            alight_engine alight_replay)
 set(ALIGHT_TOOLS alight-sim alight-dataset)
 if(ALIGHT_WITH_TORCH)

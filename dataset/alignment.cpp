@@ -41,13 +41,19 @@ AlignedPoints align_points(const std::vector<LidarReturn>& returns, const Trajec
                            const Eigen::Isometry3d& T_imu_lidar) {
   AlignedPoints aligned;
   aligned.points.reserve(returns.size());
+  std::optional<std::int64_t> pose_ns;  // points of a driver without point times share one pose
+  std::optional<Eigen::Isometry3d> T_world_lidar;
   for (const LidarReturn& point : returns) {
-    const auto T_world_imu = trajectory.T_world_imu(point.t_ns);
-    if (!T_world_imu) {
+    if (pose_ns != point.t_ns) {
+      pose_ns = point.t_ns;
+      T_world_lidar = trajectory.T_world_imu(point.t_ns);
+      if (T_world_lidar) T_world_lidar = *T_world_lidar * T_imu_lidar;
+    }
+    if (!T_world_lidar) {
       ++aligned.without_pose;
       continue;
     }
-    aligned.points.push_back({point.t_ns, *T_world_imu * (T_imu_lidar * point.p_lidar.cast<double>())});
+    aligned.points.push_back({point.t_ns, *T_world_lidar * point.p_lidar.cast<double>()});
   }
   return aligned;
 }

@@ -28,6 +28,12 @@ class FlightTrajectory {
   bool add(const AttitudeSample& sample) { return trajectory_.add_attitude(sample.t_ns, sample.q_world_imu); }
   bool add(const PositionSample& sample);
 
+  /// True once no later sample can change whether `t_ns` has a pose.
+  bool settled(std::int64_t t_ns) const {
+    const auto end_ns = trajectory_.end_ns();
+    return end_ns && *end_ns >= t_ns;
+  }
+
   const Trajectory& trajectory() const { return trajectory_; }
   void forget_before(std::int64_t t_ns) { trajectory_.forget_before(t_ns); }
 

@@ -1,5 +1,6 @@
 #include "geometry/reprojection.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -71,11 +72,13 @@ cv::Mat rotate_depth(const cv::Mat& depth_source_m, const PinholeIntrinsics& int
       if (ray_source.z() <= 0) continue;
       const Eigen::Vector2d pixel = intrinsics.project(ray_source);
       if (!intrinsics.contains(pixel.x(), pixel.y())) continue;
-      const float depth_source =
-          depth_source_m.at<float>(static_cast<int>(pixel.y() + 0.5), static_cast<int>(pixel.x() + 0.5));
-      // The target ray has z = 1, so its length along the source axis is ray_source.z() per metre of target
-      // depth.
-      depth_target_m.at<float>(v, u) = static_cast<float>(depth_source / ray_source.z());
+      const int u_source = static_cast<int>(pixel.x() + 0.5);
+      const int v_source = static_cast<int>(pixel.y() + 0.5);
+      const double depth_source = static_cast<double>(depth_source_m.at<float>(v_source, u_source));
+      // The depth of the measured point itself: the target ray passes half a pixel beside it, and on a tilted view
+      // that would be centimetres of height.
+      const double z_target = R_target_source.row(2).dot(intrinsics.ray(u_source, v_source)) * depth_source;
+      depth_target_m.at<float>(v, u) = static_cast<float>(std::max(z_target, 0.0));
     }
   }
   return depth_target_m;

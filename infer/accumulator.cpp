@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "dataset/alignment.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -25,22 +26,10 @@ WorldPacket to_world(const LidarPacket& packet, const Trajectory& trajectory,
   WorldPacket world;
   world.end_ns = end_of(packet);
   world.begin_ns = world.end_ns;
-  world.points.reserve(packet.returns.size());
-  std::optional<std::int64_t> pose_ns;
-  std::optional<Eigen::Isometry3d> T_world_lidar;
-  for (const LidarReturn& echo : packet.returns) {
-    world.begin_ns = std::min(world.begin_ns, echo.t_ns);
-    if (pose_ns != echo.t_ns) {
-      pose_ns = echo.t_ns;
-      T_world_lidar = trajectory.T_world_imu(echo.t_ns);
-      if (T_world_lidar) T_world_lidar = *T_world_lidar * T_imu_lidar;
-    }
-    if (T_world_lidar) {
-      world.points.push_back({echo.t_ns, *T_world_lidar * echo.p_lidar.cast<double>()});
-    } else {
-      ++world.without_pose;
-    }
-  }
+  for (const LidarReturn& echo : packet.returns) world.begin_ns = std::min(world.begin_ns, echo.t_ns);
+  AlignedPoints aligned = align_points(packet.returns, trajectory, T_imu_lidar);
+  world.points = std::move(aligned.points);
+  world.without_pose = aligned.without_pose;
   world.duration_s = to_seconds(world.end_ns - world.begin_ns);
   if (world.duration_s <= 0 && previous_end_ns)
     world.duration_s = to_seconds(world.end_ns - *previous_end_ns);

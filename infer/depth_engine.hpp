@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "configs/config_reader.hpp"
+#include "dataset/alignment.hpp"
 #include "dataset/messages/message_types.hpp"
 #include "geometry/stereo_rectification.hpp"
 #include "infer/accumulator.hpp"
 #include "infer/depth_result.hpp"
 #include "infer/image_task.hpp"
-#include "infer/pose_source.hpp"
 
 namespace alight {
 
@@ -105,7 +105,7 @@ class DepthEngine {
   RectifiedRig rig_;
   Eigen::Isometry3d T_imu_lidar_;
   std::shared_ptr<DepthPredictor> predictor_;
-  PoseSource poses_;
+  FlightTrajectory poses_;
   Accumulator accumulator_;
   std::deque<LidarPacket> packets_;  // waiting for a pose
   std::deque<Entry> entries_;        // images without a delivered result, in order of arrival

@@ -94,6 +94,7 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  alight::restart_with_short_spin(argv);
   CLI::App app("alight-train: learns depth completion from a data set of alight-dataset");
   Options options;
   add_options(app, options);

@@ -108,9 +108,7 @@ TEST_P(LevelView, LevelGroundHasConstantDepthWhateverTheTilt) {
     }
   }
   EXPECT_GT(cv::countNonZero(level), 0);
-  // Half a pixel of nearest sampling: height * tan(tilt) * 0.5 / f
-  const double tilt = std::acos(R_world_camera.col(2).dot(-Eigen::Vector3d::UnitZ()));
-  EXPECT_LT(max_error, 1e-5 + 1.2 * height_m * std::tan(tilt) / 440);
+  EXPECT_LT(max_error, 1e-5);  // the points' own heights, whatever the pixel grid
 }
 
 INSTANTIATE_TEST_SUITE_P(Tilts, LevelView,

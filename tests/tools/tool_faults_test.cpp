@@ -17,7 +17,6 @@ namespace alight::test {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 std::string read_file(const fs::path& path) {
@@ -174,11 +173,19 @@ TEST_F(LogFaults, CheckpointThatIsNone) {
 
 /// A file whose weights are another network's than its stated architecture.
 TEST_F(LogFaults, CheckpointOfAnotherNetwork) {
-  torch::jit::Module module("other");
-  module.register_attribute("weights", c10::TensorType::get(), torch::zeros({3, 3}));
-  module.save((folder_ / "net.pt").string());
-  expect_refused(log_readers(quick_flight() / "quick.bag", folder_ / "out")[1], 1, {"net.pt"},
-                 folder_ / "out");
+  DepthCompletionConfig wider = small_network();
+  wider.decoder_widths = {32, 8, 8, 8, 8};
+  torch::serialize::InputArchive saved;
+  saved.load_from((folder_ / "net.pt").string());
+  torch::serialize::OutputArchive archive;
+  for (const std::string& key : saved.keys()) {
+    c10::IValue value;
+    saved.read(key, value);
+    archive.write(key, key == "model_config" ? c10::IValue(print_config(wider)) : value);
+  }
+  archive.save_to((folder_ / "net.pt").string());
+  expect_refused(log_readers(quick_flight() / "quick.bag", folder_ / "out")[1], 1,
+                 {"net.pt", "another network", "decoder1"}, folder_ / "out");
 }
 
 }  // namespace
