@@ -16,11 +16,10 @@
 /// The data set on disk, a folder:
 ///     dataset.yaml                 format version, cropped rig, depth scale, window, flights, configuration
 ///     <flight>/samples.csv         one line a sample: time, pose, neighbours, counts, height
-///     <flight>/left/000000.png     rectified and cropped, grey or BGR; right/ the same where the rig is
-///     stereo <flight>/depth/000000.png    16-bit plane depth in 1/256 m, 0 = missing (KITTI's convention)
+///     <flight>/left/000000.png     rectified and cropped, grey or BGR; right/ the same where the rig is stereo
+///     <flight>/depth/000000.png    16-bit plane depth in 1/256 m, 0 = missing (KITTI's convention)
 ///     <flight>/offset/000000.png   16-bit t_point - t_image in ms + 32768, 0 = missing
-///     <flight>/dense/000000.png    simulated flights: true depth of every pixel, as depth/; for evaluation
-///     only
+///     <flight>/dense/000000.png    simulated flights: true depth of every pixel, as depth/; for evaluation only
 namespace alight {
 
 constexpr int kDatasetFormatVersion = 1;

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Configures and builds a preset (default: release) with all cores.
+# Configures and builds a preset with all cores: scripts/build.sh [preset [target...]]   (default: release, everything)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
-cmake --preset "$preset" >"/tmp/alight-configure-$$.log" || { cat "/tmp/alight-configure-$$.log"; exit 1; }
-rm -f "/tmp/alight-configure-$$.log"
-cmake --build --preset "$preset" --parallel "$(nproc)"
+shift || true
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+cmake --preset "$preset" >"$log" 2>&1 || { cat "$log"; exit 1; }
+cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}

@@ -13,11 +13,10 @@
 namespace alight::sim {
 
 /// What is true of a simulated flight, in the folder `<flight>.truth`:
-///   depth/<t_ns>.png  16 bit, 1/256 m, plane depth of the left camera, 0 = sky; t_ns: the image's stamp in
-///   the bag safe/<t_ns>.png   8 bit, 255 = safe ground trajectory.csv    T_world_imu; t_ns on the clock of
-///   attitude and position in the bag; world: East-North-Up with
-///                     its origin at the true position at the first fix, which is what a reader of the bag
-///                     builds
+///   depth/<t_ns>.png  16 bit, 1/256 m, plane depth of the left camera, 0 = sky; t_ns: the image's stamp in the bag
+///   safe/<t_ns>.png   8 bit, 255 = safe ground
+///   trajectory.csv    T_world_imu; t_ns on the clock of attitude and position in the bag; world: East-North-Up with
+///                     its origin at the true position at the first fix, which is what a reader of the bag builds
 ///   rig.yaml          the rig with the clocks' true time shifts
 ///   truth.yaml        all settings
 class TruthWriter {
