@@ -81,7 +81,7 @@ struct HoldoutTestConfig {
   /// (TerrainConfig), so depth that is off by more is no basis for it.
   double max_median_relative = 0.004;
   double max_rms_relative = 0.03;  ///< root mean square of error / depth, which sees wrong edges
-  int min_points = 100;               ///< fewer say nothing
+  int min_points = 100;            ///< fewer say nothing
 };
 void bind(Binder& b, HoldoutTestConfig& c);
 
