@@ -3,12 +3,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <thread>
 
 #include <spdlog/spdlog.h>
 
 #include "cli/progress_bar.hpp"
 #include "configs/errors.hpp"
+#include "models/altitude_plane.hpp"
 #include "models/checkpoint.hpp"
 #include "models/depth_conversion.hpp"
 #include "train/batch_loader.hpp"
@@ -64,17 +66,23 @@ Trainer::Trainer(const TrainConfig& config, SampleSource& training, SampleSource
       cache_(training, static_cast<std::size_t>(config.train.cache_mb) << 20U),
       validation_(validation),
       folder_(folder),
-      net_(make_network(config)),
-      random_(at::detail::createCPUGenerator(static_cast<std::uint64_t>(config.train.seed))) {
+      net_(make_network(config)) {
   adam_.emplace(net_->parameters(), torch::optim::AdamOptions(config.train.learning_rate));
 }
 
 LossTerms Trainer::losses_of(const Batch& batch) {
   const DepthKind kind = config_.model.depth_kind;
   const NetworkInput input =
-      sample_density(batch.left, batch.sparse_m, batch.offset_s, config_.density, random_);
+      sample_density(batch.left, batch.right, batch.sparse_m, batch.offset_s, config_.density,
+                     {static_cast<std::uint64_t>(config_.train.seed), step_, 0});
+  const torch::Tensor unknown = torch::full_like(batch.height_m, std::numeric_limits<float>::quiet_NaN());
+  const torch::Tensor plane_m =
+      altitude_planes(torch::where(input.knows_height, batch.height_m, unknown), batch.down_camera,
+                      batch.intrinsics_px, batch.left.size(2), batch.left.size(3), config_.model.max_depth_m);
+  const SceneView view{input.image, input.right, to_network_depth(plane_m, batch.intrinsics_px, kind),
+                       batch.intrinsics_px.select(1, 0) * batch.baseline_m};
   const torch::Tensor depth =
-      net_->forward(input.image, to_network_depth(input.sparse_m, batch.intrinsics_px, kind));
+      net_->forward(view, to_network_depth(input.sparse_m, batch.intrinsics_px, kind));
   LossInputs inputs;
   inputs.prediction_m = from_network_depth(depth, batch.intrinsics_px, kind);
   inputs.ground_truth_m = batch.sparse_m;

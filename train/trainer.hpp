@@ -59,7 +59,6 @@ class Trainer {
   RunFolder& folder_;
   DepthCompletionNet net_{nullptr};
   std::optional<torch::optim::Adam> adam_;
-  torch::Generator random_;
   std::int64_t step_ = 0;
   std::optional<double> best_score_mm_;
 };

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "models/altitude_plane.hpp"
 #include "models/depth_conversion.hpp"
 #include "models/sparse_fill.hpp"
-#include "train/altitude_plane.hpp"
 #include "train/density_sampling.hpp"
 
 namespace alight {
@@ -15,16 +15,23 @@ namespace {
 
 /// One sample as a batch of one.
 struct Scene {
-  torch::Tensor image;          // [1,3,H,W]
+  SceneView view;
   torch::Tensor sparse_m;       // [1,1,H,W]
   torch::Tensor dense_m;        // [1,1,H,W], undefined if there is none
+  torch::Tensor plane_m;        // [1,1,H,W], 0: the height is unknown
   torch::Tensor intrinsics_px;  // [1,4]
 };
 
-Scene scene(const DepthSample& sample) {
-  return {sample.left.unsqueeze(0), sample.sparse.unsqueeze(0),
-          sample.dense.defined() ? sample.dense.unsqueeze(0) : torch::Tensor(),
-          sample.intrinsics.unsqueeze(0)};
+Scene scene(const DepthSample& sample, const DepthCompletionConfig& config) {
+  const torch::Tensor intrinsics_px = sample.intrinsics.unsqueeze(0);
+  const torch::Tensor plane_m =
+      altitude_planes(torch::tensor({sample.height_m}, torch::kFloat64), sample.down_camera.unsqueeze(0),
+                      intrinsics_px, sample.left.size(1), sample.left.size(2), config.max_depth_m);
+  SceneView view{sample.left.unsqueeze(0), sample.right.unsqueeze(0),
+                 to_network_depth(plane_m, intrinsics_px, config.depth_kind),
+                 intrinsics_px.select(1, 0) * sample.baseline_m};
+  return {view, sample.sparse.unsqueeze(0),
+          sample.dense.defined() ? sample.dense.unsqueeze(0) : torch::Tensor(), plane_m, intrinsics_px};
 }
 
 void add(ValidationRow& row, const Scene& scene, const torch::Tensor& prediction_m,
@@ -51,23 +58,22 @@ const ValidationRow& nearest_row(const std::vector<ValidationRow>& rows, double 
 void add_network(ValidationReport& report, DepthCompletionNet net, const Scene& scene,
                  torch::Generator& generator) {
   const DepthKind kind = net->config().depth_kind;
-  const auto image_pyramid = net->encode_image(scene.image);
+  const auto image_pyramid = net->encode_image(scene.view);
   for (std::size_t i = 0; i < report.network.size(); ++i) {
     ValidationRow& row = report.network[i];
     const torch::Tensor fed_m = keep_share(scene.sparse_m, torch::tensor(row.share), generator);
-    const auto depth_pyramid = net->encode_depth(to_network_depth(fed_m, scene.intrinsics_px, kind));
+    const auto depth_pyramid =
+        net->encode_depth(to_network_depth(fed_m, scene.intrinsics_px, kind), scene.view.prior_m);
     const torch::Tensor depth = net->decode(image_pyramid, depth_pyramid);
     add(row, scene, from_network_depth(depth, scene.intrinsics_px, kind), fed_m);
     if ((fed_m > 0).any().item<bool>()) add(report.fill[i], scene, interpolated_m(fed_m), fed_m);
   }
 }
 
-void add_altitude_plane(ValidationReport& report, const Scene& scene, double height_m,
-                        const Eigen::Vector3d& down_camera, double max_depth_m) {
-  if (!std::isfinite(height_m) || !down_camera.allFinite()) return;
-  const torch::Tensor plane_m = altitude_plane(height_m, down_camera, scene.intrinsics_px[0],
-                                               scene.sparse_m.size(2), scene.sparse_m.size(3), max_depth_m);
-  add(report.altitude_plane, scene, plane_m, torch::zeros_like(scene.sparse_m));
+void add_altitude_plane(ValidationReport& report, const Scene& scene) {
+  if ((scene.plane_m > 0).any().item<bool>()) {
+    add(report.altitude_plane, scene, scene.plane_m, torch::zeros_like(scene.sparse_m));
+  }
 }
 
 ValidationReport empty_report(const std::vector<double>& shares) {
@@ -139,10 +145,10 @@ ValidationReport validate(DepthCompletionNet net, SampleSource& source,
   ValidationReport report = empty_report(shares);
   for (const std::size_t index : samples) {
     const DepthSample sample = source.get(index);
-    const Scene view = scene(sample);
+    const Scene view = scene(sample, net->config());
     torch::Generator generator = at::detail::createCPUGenerator(seed + index);
     add_network(report, net, view, generator);
-    add_altitude_plane(report, view, sample.height_m, source.down_camera(index), net->config().max_depth_m);
+    add_altitude_plane(report, view);
     if (progress) progress();
   }
   report.samples = samples.size();

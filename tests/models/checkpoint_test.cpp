@@ -51,7 +51,7 @@ void train_step(DepthCompletionNet net, torch::optim::Adam& adam, int seed) {
   torch::manual_seed(static_cast<std::uint64_t>(seed));
   net->train();
   adam.zero_grad();
-  net->forward(torch::rand({2, 3, 32, 32}), random_sparse_m(2, 32, 32)).log().square().mean().backward();
+  net->forward({torch::rand({2, 3, 32, 32})}, random_sparse_m(2, 32, 32)).log().square().mean().backward();
   adam.step();
 }
 
@@ -70,7 +70,7 @@ TEST_F(Checkpoint, RoundTripIsBitIdentical) {
   torch::NoGradGuard no_grad;
   const torch::Tensor image = torch::rand({1, 3, 33, 47});
   const torch::Tensor sparse_m = random_sparse_m(1, 33, 47);
-  EXPECT_TRUE(torch::equal(loaded.net->forward(image, sparse_m), net->forward(image, sparse_m)));
+  EXPECT_TRUE(torch::equal(loaded.net->forward({image}, sparse_m), net->forward({image}, sparse_m)));
 }
 
 TEST_F(Checkpoint, EqualNetworksAreEqualFiles) {

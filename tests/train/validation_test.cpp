@@ -32,8 +32,8 @@ TEST(Validation, RowsAreThoseOfTheNetworksOwnOutput) {
   for (std::size_t i = 0; i < 2; ++i) {
     const DepthSample s = source.get(i);
     const torch::Tensor sparse = s.sparse.unsqueeze(0);
-    without_lidar.add(net->forward(s.left.unsqueeze(0), sparse * 0), sparse, sparse > 0);
-    dense.add(net->forward(s.left.unsqueeze(0), sparse), s.dense.unsqueeze(0), s.dense.unsqueeze(0) > 0);
+    without_lidar.add(net->forward({s.left.unsqueeze(0)}, sparse * 0), sparse, sparse > 0);
+    dense.add(net->forward({s.left.unsqueeze(0)}, sparse), s.dense.unsqueeze(0), s.dense.unsqueeze(0) > 0);
   }
   EXPECT_DOUBLE_EQ(report.network[0].ground_truth.rmse_mm(), without_lidar.rmse_mm());
   EXPECT_DOUBLE_EQ(report.network[0].held_out.rmse_mm(), without_lidar.rmse_mm());  // nothing was fed
