@@ -6,7 +6,7 @@ namespace alight {
 
 /// What the network sees of a moment before any LiDAR point has come. Only `left` is always needed.
 struct SceneView {
-  torch::Tensor left;   ///< [B,3,H,W] float32, RGB in 0..1; zeros: the camera is lost
+  torch::Tensor left;     ///< [B,3,H,W] float32, RGB in 0..1; zeros: the camera is lost
   torch::Tensor right{};  ///< [B,3,H,W] the rectified right image; zeros or undefined: none
   /// [B,1,H,W] metres, level ground at the height that the vehicle reports (models/altitude_plane.hpp), of the
   /// network's depth kind; 0 or undefined: the height is unknown.

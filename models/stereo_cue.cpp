@@ -38,9 +38,9 @@ WarpedRight warp(const torch::Tensor& right, const torch::Tensor& disparity_px) 
   const std::int64_t width = right.size(3);
   const torch::Tensor u = torch::arange(width, right.options()).view({1, 1, -1}) - disparity_px.squeeze(1);
   const torch::Tensor v = torch::arange(height, right.options()).view({1, -1, 1}).expand_as(u);
-  const torch::Tensor grid = torch::stack({u * (2.0 / static_cast<double>(width - 1)) - 1.0,
-                                           v * (2.0 / static_cast<double>(height - 1)) - 1.0},
-                                          3);
+  const torch::Tensor grid = torch::stack(
+      {u * (2.0 / static_cast<double>(width - 1)) - 1.0, v * (2.0 / static_cast<double>(height - 1)) - 1.0},
+      3);
   const auto options =
       F::GridSampleFuncOptions().mode(torch::kBilinear).padding_mode(torch::kBorder).align_corners(true);
   return {F::grid_sample(right, grid, options), (u >= 0).unsqueeze(1).to(right.dtype())};
@@ -80,11 +80,12 @@ torch::Tensor stereo_cue(const torch::Tensor& left, const torch::Tensor& right, 
                       focal_baseline_px_m.sizes().equals({left.size(0)});
   if (!shapes || left.size(2) < 8 || left.size(3) < 8) {
     throw std::invalid_argument(
-        "stereo_cue: expected left and right [B,3,H,W] of 8 px and more, prior_m [B,1,H,W], focal_baseline [B]");
+        "stereo_cue: expected left and right [B,3,H,W] of 8 px and more, prior_m [B,1,H,W], focal_baseline "
+        "[B]");
   }
   const torch::Tensor known = (prior_m > 0).to(prior_m.dtype());
-  const torch::Tensor disparity_px =
-      known * focal_baseline_px_m.view({-1, 1, 1, 1}) / torch::where(prior_m > 0, prior_m, torch::ones_like(prior_m));
+  const torch::Tensor disparity_px = known * focal_baseline_px_m.view({-1, 1, 1, 1}) /
+                                     torch::where(prior_m > 0, prior_m, torch::ones_like(prior_m));
   const torch::Tensor there = (right.amax({1, 2, 3}, /*keepdim=*/true) > 0).to(left.dtype());  // [B,1,1,1]
   const torch::Tensor left_grey = grey(left);
   const WarpedRight warped = warp(grey(right), disparity_px);

@@ -78,6 +78,20 @@ void fill(Batch& batch, std::size_t i, const CompactSample& sample, const Window
 
 }  // namespace
 
+Batch Batch::to(torch::Device device, torch::MemoryFormat format) const {
+  Batch moved = *this;
+  for (torch::Tensor* image : {&moved.left, &moved.right, &moved.previous, &moved.next}) {
+    *image = image->to(device).contiguous(format);
+  }
+  for (torch::Tensor* tensor :
+       {&moved.sparse_m, &moved.offset_s, &moved.has_right, &moved.has_previous, &moved.has_next,
+        &moved.T_previous_camera, &moved.T_next_camera, &moved.intrinsics_px, &moved.baseline_m,
+        &moved.height_m, &moved.down_camera}) {
+    *tensor = tensor->to(device);
+  }
+  return moved;
+}
+
 Batch stack(const std::vector<std::shared_ptr<const CompactSample>>& samples,
             const std::vector<CropOrigin>& origins, std::int64_t height_px, std::int64_t width_px) {
   if (samples.empty() || samples.size() != origins.size()) {

@@ -43,7 +43,7 @@ torch::Tensor feed(const torch::Tensor& sparse_m, const torch::Tensor& offset_s,
                    torch::Generator& generator) {
   if (!lot.lidar) return torch::zeros_like(sparse_m);
   if (lot.window)
-    return keep_window(sparse_m, offset_s, lot.begin_s, torch::tensor(lot.end_s, torch::kFloat32));
+    return keep_window(sparse_m, offset_s, lot.begin_s, torch::full({}, lot.end_s, offset_s.options()));
   return keep_share(sparse_m, torch::tensor(lot.share), generator);
 }
 
@@ -74,9 +74,9 @@ void bind(Binder& b, DensitySamplingConfig& c) {
 
 torch::Tensor keep_share(const torch::Tensor& sparse_m, const torch::Tensor& share,
                          torch::Generator& generator) {
-  const torch::Tensor lot =
-      torch::rand(sparse_m.sizes(), generator, torch::kFloat32);  // below 1, so 1 keeps all
-  return sparse_m * (lot < share).to(sparse_m.dtype());
+  const torch::Tensor lot = torch::rand(sparse_m.sizes(), generator, torch::kFloat32)
+                                .to(sparse_m.device());  // below 1, so 1 keeps all
+  return sparse_m * (lot < share.to(sparse_m.device())).to(sparse_m.dtype());
 }
 
 torch::Tensor keep_window(const torch::Tensor& sparse_m, const torch::Tensor& offset_s, double begin_s,
@@ -95,7 +95,7 @@ NetworkInput sample_density(const torch::Tensor& image, const torch::Tensor& rig
   torch::Generator of_batch = at::detail::createCPUGenerator(mixed(key.seed, step, 0));
   const Lot lot_of_batch = draw(config, of_batch);
   NetworkInput input{image.clone(), right.clone(), torch::empty_like(sparse_m),
-                     torch::ones({image.size(0)}, torch::kBool)};
+                     torch::ones({image.size(0)}, image.options().dtype(torch::kBool))};
   for (std::int64_t i = 0; i < image.size(0); ++i) {
     torch::Generator of_sample =
         at::detail::createCPUGenerator(mixed(key.seed, step, static_cast<std::uint64_t>(key.first + i + 1)));

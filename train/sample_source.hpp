@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dataset/depth_dataset.hpp"
+#include "train/split.hpp"
 
 namespace alight {
 
@@ -18,16 +19,20 @@ class SampleSource {
   virtual DepthSample get(std::size_t index) = 0;
 };
 
-/// Samples of chosen flights of a data set on disk.
+/// The part of a data set that a split gives to somebody.
+enum class SplitPart { kTraining, kHeldOut, kUnknown };
+
+/// Samples of a part of a data set on disk.
 class DatasetSource : public SampleSource {
  public:
-  /// @param with_dense for evaluation only. @throws DataError as DepthDataset
-  DatasetSource(const std::filesystem::path& dir, const std::vector<std::string>& flights, bool with_dense);
-  std::size_t size() const override { return *dataset_.size(); }
-  DepthSample get(std::size_t index) override { return dataset_.get(index); }
+  /// @param with_dense for evaluation only. @throws DataError as DepthDataset, ConfigError as choose()
+  DatasetSource(const std::filesystem::path& dir, const SplitConfig& split, SplitPart part, bool with_dense);
+  std::size_t size() const override { return chosen_.size(); }
+  DepthSample get(std::size_t index) override { return dataset_.get(chosen_.at(index)); }
 
  private:
   DepthDataset dataset_;
+  std::vector<std::size_t> chosen_;  // index here -> index in the data set
 };
 
 }  // namespace alight

@@ -21,8 +21,10 @@ struct Pair {
 
 /// Level ground at `depth_m`: right(u - disparity) = left(u).
 Pair pair_at(double depth_m, std::int64_t height = 64, std::int64_t width = 96) {
-  const torch::Tensor u = torch::arange(width, torch::kFloat32).view({1, 1, 1, -1}).expand({1, 3, height, width});
-  const torch::Tensor v = torch::arange(height, torch::kFloat32).view({1, 1, -1, 1}).expand({1, 3, height, width});
+  const torch::Tensor u =
+      torch::arange(width, torch::kFloat32).view({1, 1, 1, -1}).expand({1, 3, height, width});
+  const torch::Tensor v =
+      torch::arange(height, torch::kFloat32).view({1, 1, -1, 1}).expand({1, 3, height, width});
   return {texture(u, v), texture(u + kFocalBaseline_px_m / depth_m, v)};
 }
 
@@ -57,11 +59,10 @@ TEST(StereoCue, SaysNothingWithoutTextureRightImageHeightOrBaseline) {
   const torch::Tensor prior_m = torch::full({1, 1, 64, 96}, 10.0);
   const torch::Tensor baseline = torch::full({1}, kFocalBaseline_px_m);
   const torch::Tensor flat = torch::full_like(pair.left, 0.5);
-  for (const torch::Tensor& cues :
-       {stereo_cue(flat, flat, prior_m, baseline),
-        stereo_cue(pair.left, torch::zeros_like(pair.right), prior_m, baseline),
-        stereo_cue(pair.left, pair.right, torch::zeros_like(prior_m), baseline),
-        stereo_cue(pair.left, pair.right, prior_m, torch::zeros({1}))}) {
+  for (const torch::Tensor& cues : {stereo_cue(flat, flat, prior_m, baseline),
+                                    stereo_cue(pair.left, torch::zeros_like(pair.right), prior_m, baseline),
+                                    stereo_cue(pair.left, pair.right, torch::zeros_like(prior_m), baseline),
+                                    stereo_cue(pair.left, pair.right, prior_m, torch::zeros({1}))}) {
     EXPECT_LT(cues.abs().max().item<double>(), 1e-5);
   }
 }
