@@ -16,7 +16,8 @@ void bind(Binder& b, ComputeConfig& c) {
   b.choice("memory_format", c.memory_format,
            {{"contiguous", MemoryFormat::kContiguous}, {"channels_last", MemoryFormat::kChannelsLast}},
            "of images and weights");
-  b.field("threads", c.threads, "0: all cores; the same number gives the same weights bit for bit", at_least(0));
+  b.field("threads", c.threads, "0: all cores; the same number gives the same weights bit for bit",
+          at_least(0));
 }
 
 torch::Device find_device(const std::string& name) {
@@ -26,7 +27,9 @@ torch::Device find_device(const std::string& name) {
   if (name.rfind("cuda", 0) != 0) {
     throw ConfigError("compute.device: \"" + name + "\" is no device; expected auto, cpu, cuda or cuda:N");
   }
-  if (!cuda) throw ConfigError("compute.device: " + name + ", but this LibTorch finds no CUDA device; use cpu or auto");
+  if (!cuda)
+    throw ConfigError("compute.device: " + name +
+                      ", but this LibTorch finds no CUDA device; use cpu or auto");
   try {
     return torch::Device(name);
   } catch (const c10::Error&) {
@@ -48,7 +51,8 @@ void place(torch::nn::Module& module, torch::Device device, MemoryFormat format)
 }
 
 torch::MemoryFormat torch_format(MemoryFormat format) {
-  return format == MemoryFormat::kContiguous ? torch::MemoryFormat::Contiguous : torch::MemoryFormat::ChannelsLast;
+  return format == MemoryFormat::kContiguous ? torch::MemoryFormat::Contiguous
+                                             : torch::MemoryFormat::ChannelsLast;
 }
 
 PrecisionScope::PrecisionScope(Precision precision, torch::Device device)

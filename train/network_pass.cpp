@@ -11,8 +11,8 @@ SceneView scene_view(const Batch& batch, const torch::Tensor& image, const torch
                      const torch::Tensor& knows_height, const DepthCompletionConfig& config) {
   const torch::Tensor unknown = torch::full_like(batch.height_m, std::numeric_limits<float>::quiet_NaN());
   const torch::Tensor plane_m =
-      altitude_planes(torch::where(knows_height, batch.height_m, unknown), batch.down_camera, batch.intrinsics_px,
-                      image.size(2), image.size(3), config.max_depth_m);
+      altitude_planes(torch::where(knows_height, batch.height_m, unknown), batch.down_camera,
+                      batch.intrinsics_px, image.size(2), image.size(3), config.max_depth_m);
   return {image, right, to_network_depth(plane_m, batch.intrinsics_px, config.depth_kind),
           batch.intrinsics_px.select(1, 0) * batch.baseline_m};
 }
@@ -24,10 +24,11 @@ torch::Tensor predict(DepthCompletionNet net, const Batch& batch, const NetworkI
   return from_network_depth(net->forward(view, sparse), batch.intrinsics_px, config.depth_kind);
 }
 
-LossInputs loss_inputs(const Batch& batch, const NetworkInput& input, const torch::Tensor& prediction_m) {
+LossInputs loss_inputs(const Batch& batch, const NetworkInput& input, const torch::Tensor& prediction_m,
+                       const torch::Tensor& ground_truth_m) {
   LossInputs inputs;
   inputs.prediction_m = prediction_m;
-  inputs.ground_truth_m = batch.sparse_m;
+  inputs.ground_truth_m = ground_truth_m;
   inputs.input_m = input.sparse_m;
   inputs.left = batch.left;
   inputs.previous = batch.previous;

@@ -10,10 +10,11 @@ void bind(Binder& b, OptimizerConfig& c) {
   b.field("learning_rate", c.learning_rate, "before the schedule's factor", positive());
   b.field("weight_decay", c.weight_decay, "adamw: share of a weight that decays in a step of learning rate 1",
           between(0, 1));
-  b.field("clip_gradient_norm", c.clip_gradient_norm, "longer gradients are shortened to this; 0: off", at_least(0));
+  b.field("clip_gradient_norm", c.clip_gradient_norm, "longer gradients are shortened to this; 0: off",
+          at_least(0));
   b.field("accumulate", c.accumulate, "batches whose gradients are averaged for a step", at_least(1));
-  b.field("average_decay", c.average_decay, "of the moving average of the weights that is kept and flies; 0: off",
-          between(0, 0.999999));
+  b.field("average_decay", c.average_decay,
+          "of the moving average of the weights that is kept and flies; 0: off", between(0, 0.999999));
 }
 
 Optimizer::Optimizer(torch::nn::Module& module, const OptimizerConfig& config)

@@ -12,15 +12,16 @@ enum class ScheduleKind { kConstant, kStep, kCosine };
 
 struct ScheduleConfig {
   ScheduleKind kind = ScheduleKind::kStep;
-  int warmup_steps = 0;       ///< the learning rate rises linearly over the first steps
-  int drop_after_epoch = 20;  ///< step; 0: never
-  double drop_factor = 0.1;   ///< step
+  int warmup_steps = 0;        ///< the learning rate rises linearly over the first steps
+  int drop_after_epoch = 20;   ///< step; 0: never
+  double drop_factor = 0.1;    ///< step
   double final_factor = 0.01;  ///< cosine
 };
 void bind(Binder& b, ScheduleConfig& c);
 
 /// Factor of the learning rate (paper 4.1: a tenth after epoch 20).
 /// @param epoch from 1 @param step optimizer steps finished before this one @param total_steps of the whole run
-double learning_rate_factor(const ScheduleConfig& config, int epoch, std::int64_t step, std::int64_t total_steps);
+double learning_rate_factor(const ScheduleConfig& config, int epoch, std::int64_t step,
+                            std::int64_t total_steps);
 
 }  // namespace alight

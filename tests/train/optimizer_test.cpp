@@ -16,7 +16,8 @@ torch::nn::Linear ones() {
 }
 
 void set_gradients(torch::nn::Linear& layer, float value) {
-  for (torch::Tensor& parameter : layer->parameters()) parameter.mutable_grad() = torch::full_like(parameter, value);
+  for (torch::Tensor& parameter : layer->parameters())
+    parameter.mutable_grad() = torch::full_like(parameter, value);
 }
 
 TEST(Optimizer, FirstAdamStepIsTheLearningRate) {
@@ -48,7 +49,8 @@ TEST(Optimizer, LongGradientsAreShortened) {
   set_gradients(layer, 10);
   EXPECT_NEAR(optimizer.step(0.1), 10 * std::sqrt(6.0), 1e-3);
   double square = 0;
-  for (const torch::Tensor& parameter : layer->parameters()) square += parameter.grad().square().sum().item<double>();
+  for (const torch::Tensor& parameter : layer->parameters())
+    square += parameter.grad().square().sum().item<double>();
   EXPECT_NEAR(square, 1, 1e-4);
 }
 
