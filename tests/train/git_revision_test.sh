@@ -3,7 +3,8 @@
 set -euo pipefail
 cmake=$1
 script=$(cd "$(dirname "$0")/../.." && pwd)/cmake/GitRevision.cmake
-work=$(mktemp -d "$(realpath "$2")/git_revision.XXXXXX") # the build folder mostly lies inside a repository, which must not be taken
+# The build folder mostly lies inside a repository, which must not be taken for the one asked.
+work=$(mktemp -d "$(realpath "$2")/git_revision.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 unset GIT_DIR GIT_WORK_TREE GIT_INDEX_FILE # set where git itself runs the tests, as a hook
 mkdir "$work/source"
