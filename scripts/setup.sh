@@ -11,7 +11,7 @@ packages=(
   # ROS 1 logs
   librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev
   # tests and benchmarks
-  libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag
+  libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag python3-venv
 )
 
 missing=()

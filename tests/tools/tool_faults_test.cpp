@@ -171,6 +171,14 @@ TEST_F(LogFaults, CheckpointThatIsNone) {
                  folder_ / "out");
 }
 
+TEST(TrainPlotFaults, DamagedMetricsNameFileAndLine) {
+  const fs::path folder = test_folder();
+  write_file(folder / "metrics.csv", "epoch,total\n1,0.5\n2,0.\x01\n");
+  const fs::path png = folder / "curves.png";
+  expect_refused("alight-train plot " + folder.string() + " --output " + png.string(), 1,
+                 {"metrics.csv:3", "total", "a number"}, png);
+}
+
 /// A file whose weights are another network's than its stated architecture.
 TEST_F(LogFaults, CheckpointOfAnotherNetwork) {
   DepthCompletionConfig wider = small_network();
