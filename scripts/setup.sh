@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Alight needs from Debian 12's package archive. Safe to run again; needs root or sudo.
+#   scripts/setup.sh          what the build and the tests need
+#   scripts/setup.sh --full   and what the comparisons with Python need (without it those tests are skipped)
 set -euo pipefail
 
 packages=(
@@ -13,6 +15,13 @@ packages=(
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag
 )
+full_packages=(python3-torch python3-venv)
+
+case "${1:-}" in
+  "") ;;
+  --full) packages+=("${full_packages[@]}") ;;
+  *) echo "usage: scripts/setup.sh [--full]" >&2; exit 2 ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do
