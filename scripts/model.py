@@ -161,13 +161,15 @@ def stereo_cue(left, right, prior_m, focal_baseline_px_m):
 
 
 def conv_block(in_channels, out_channels, kernel, stride, normalization, relu=True):
-    conv = nn.Conv2d(in_channels, out_channels, kernel, stride, kernel // 2, bias=False)
+    conv = nn.Conv2d(
+        in_channels, out_channels, kernel, stride, kernel // 2, bias=normalization == "none"
+    )
     nn.init.kaiming_normal_(conv.weight, mode="fan_out", nonlinearity="relu")
+    layers = OrderedDict(conv=conv)
     if normalization == "batch":
-        norm = nn.BatchNorm2d(out_channels)
-    else:
-        norm = nn.GroupNorm(math.gcd(out_channels, 8), out_channels)
-    layers = OrderedDict(conv=conv, norm=norm)
+        layers["norm"] = nn.BatchNorm2d(out_channels)
+    elif normalization == "group":
+        layers["norm"] = nn.GroupNorm(math.gcd(out_channels, 8), out_channels)
     if relu:
         layers["relu"] = nn.ReLU(inplace=True)
     return nn.Sequential(layers)

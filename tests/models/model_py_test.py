@@ -55,7 +55,7 @@ def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     subprocess.run([program, str(folder)], check=True)
     checkpoints = sorted(p for p in folder.glob("*.pt") if not p.name.endswith(".tensors.pt"))
-    assert len(checkpoints) >= 5, f"only {len(checkpoints)} checkpoints in {folder}"
+    assert len(checkpoints) >= 6, f"only {len(checkpoints)} checkpoints in {folder}"
     failed = False
     for checkpoint in checkpoints:
         for name, error in errors_of(checkpoint).items():

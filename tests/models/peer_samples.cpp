@@ -21,14 +21,15 @@ std::map<std::string, DepthCompletionConfig> variants() {
   masked.head = Head::kDirect;
   DepthCompletionConfig group = test::tiny_config();
   group.normalization = Normalization::kGroup;
-  return {{"default", test::tiny_config()},
-          {"shipped", test::tiny_shipped_config()},
-          {"paper", test::tiny_paper_config()},
-          {"full_stem_masked_sum", masked},
-          {"group_normalization", group}};
+  DepthCompletionConfig none = test::tiny_config();
+  none.normalization = Normalization::kNone;
+  return {{"default", test::tiny_config()},         {"no_normalization", none},
+          {"shipped", test::tiny_shipped_config()}, {"paper", test::tiny_paper_config()},
+          {"full_stem_masked_sum", masked},         {"group_normalization", group}};
 }
 
-void write(const std::filesystem::path& folder, const std::string& name, const DepthCompletionConfig& config) {
+void write(const std::filesystem::path& folder, const std::string& name,
+           const DepthCompletionConfig& config) {
   DepthCompletionNet net = test::random_net(config);
   save_checkpoint(folder / (name + ".pt"), net);
   torch::NoGradGuard no_grad;
