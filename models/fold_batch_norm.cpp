@@ -12,7 +12,8 @@ using Modules = torch::OrderedDict<std::string, std::shared_ptr<torch::nn::Modul
 std::string norm_of(const std::string& conv) { return conv.substr(0, conv.rfind('.') + 1) + "norm"; }
 
 /// y = (conv(x) - mean) / sqrt(variance + eps) * weight + bias, as one convolution.
-void fold(const torch::nn::Conv2dImpl& conv, const torch::nn::BatchNorm2dImpl& norm, torch::nn::Conv2dImpl& folded) {
+void fold(const torch::nn::Conv2dImpl& conv, const torch::nn::BatchNorm2dImpl& norm,
+          torch::nn::Conv2dImpl& folded) {
   const torch::Tensor variance = norm.running_var.to(torch::kFloat64) + norm.options.eps();
   const torch::Tensor scale = norm.weight.to(torch::kFloat64) / variance.sqrt();  // [out]
   folded.weight.copy_(conv.weight * scale.view({-1, 1, 1, 1}));
