@@ -31,12 +31,8 @@ inline std::vector<ExportVariant> export_variants() {
   masked.head = Head::kDirect;
   DepthCompletionConfig group = tiny_shipped_config();
   group.normalization = Normalization::kGroup;
-  return {{"Default", tiny_config()},
-          {"Clamped", clamped},
-          {"Shipped", tiny_shipped_config()},
-          {"Paper", tiny_paper_config()},
-          {"FullStemMaskedSum", masked},
-          {"GroupNormalization", group}};
+  return {{"Default", tiny_config()},     {"Clamped", clamped},          {"Shipped", tiny_shipped_config()},
+          {"Paper", tiny_paper_config()}, {"FullStemMaskedSum", masked}, {"GroupNormalization", group}};
 }
 
 /// What the network computes, step by step.

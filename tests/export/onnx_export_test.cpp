@@ -1,9 +1,10 @@
 #include "train/export/onnx_export.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <onnx/onnx_pb.h>
 #include <opencv2/dnn.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "tests/export/exported_net.hpp"
 
@@ -31,7 +32,8 @@ torch::Tensor to_tensor(const cv::Mat& mat) {
 /// A model as OpenCV's DNN module runs it.
 class OpenCvModel {
  public:
-  explicit OpenCvModel(const std::string& bytes) : net_(cv::dnn::readNetFromONNX(bytes.data(), bytes.size())) {}
+  explicit OpenCvModel(const std::string& bytes)
+      : net_(cv::dnn::readNetFromONNX(bytes.data(), bytes.size())) {}
 
   std::vector<torch::Tensor> run(const test::NamedTensors& inputs, const std::vector<cv::String>& outputs) {
     for (const auto& [name, tensor] : inputs) net_.setInput(to_mat(tensor), name);

@@ -2,8 +2,9 @@
 
 #include <sstream>
 
-#include <gtest/gtest.h>
 #include <torch/script.h>
+
+#include <gtest/gtest.h>
 
 #include "tests/export/exported_net.hpp"
 
@@ -24,7 +25,8 @@ class TorchscriptExport : public testing::TestWithParam<test::ExportVariant> {
   c10::IValue run(ExportedPart part, const Reference& r) {
     torch::jit::ExtraFilesMap none;
     std::vector<c10::IValue> inputs;
-    for (const auto& [name, tensor] : test::inputs_of(r, GetParam().config, part)) inputs.emplace_back(tensor);
+    for (const auto& [name, tensor] : test::inputs_of(r, GetParam().config, part))
+      inputs.emplace_back(tensor);
     torch::NoGradGuard no_grad;
     return model(part, none).forward(inputs);
   }

@@ -7,8 +7,9 @@
 #include "models/checkpoint.hpp"
 #include "tests/models/tiny_net.hpp"
 
-/// Writes what the Python definition of the network is compared with: `peer_samples FOLDER` makes, for every variant,
-/// NAME.pt (a checkpoint) and NAME.tensors.pt (inputs and the depth that C++ predicts).
+/// What the Python scripts are compared with. `peer_samples FOLDER` makes, for every variant of the network, NAME.pt (a
+/// checkpoint) and NAME.tensors.pt (inputs and the depth that C++ predicts). `peer_samples --image-encoder WEIGHTS OUT`
+/// writes an image and what the default network's image encoder makes of it with these weights.
 namespace {
 
 using namespace alight;
@@ -58,11 +59,30 @@ void write(const std::filesystem::path& folder, const std::string& name,
   archive.save_to((folder / (name + ".tensors.pt")).string());
 }
 
+void write_image_features(const std::filesystem::path& weights, const std::string& out) {
+  torch::manual_seed(5);
+  DepthCompletionNet net;
+  load_image_encoder(weights, net);
+  net->eval();
+  torch::NoGradGuard no_grad;
+  const torch::Tensor left = torch::rand({1, 3, 64, 96});
+  torch::serialize::OutputArchive archive;
+  archive.write("left", left);
+  const auto features = net->image_features(left);
+  for (std::size_t i = 0; i < features.size(); ++i)
+    archive.write("features_" + std::to_string(i + 1), features[i]);
+  archive.save_to(out);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 4 && std::string(argv[1]) == "--image-encoder") {
+    write_image_features(argv[2], argv[3]);
+    return 0;
+  }
   if (argc != 2) {
-    std::fputs("usage: peer_samples FOLDER\n", stderr);
+    std::fputs("usage: peer_samples FOLDER | --image-encoder WEIGHTS OUT\n", stderr);
     return 2;
   }
   std::filesystem::create_directories(argv[1]);

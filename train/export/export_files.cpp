@@ -18,7 +18,8 @@ Exporter exporter_for(const fs::path& output) {
   const std::string extension = output.extension().string();
   if (extension == ".onnx") return onnx_model;
   if (extension == ".torchscript" || extension == ".ts") return torchscript_model;
-  throw ConfigError(output.string() + ": the format is told by the name's end; use .onnx, .torchscript or .ts");
+  throw ConfigError(output.string() +
+                    ": the format is told by the name's end; use .onnx, .torchscript or .ts");
 }
 
 fs::path with_suffix(const fs::path& output, const std::string& suffix) {

@@ -6,8 +6,11 @@ namespace alight {
 namespace {
 
 std::string image_text(const DepthCompletionConfig& c) {
-  const std::string text = "[1," + std::to_string(image_channels(c)) + ",H,W] float32: left image, RGB in 0..1";
-  return c.stereo ? text + "; then the stereo cue, three scales of estimate and weight (models/stereo_cue.hpp)" : text;
+  const std::string text =
+      "[1," + std::to_string(image_channels(c)) + ",H,W] float32: left image, RGB in 0..1";
+  return c.stereo
+             ? text + "; then the stereo cue, three scales of estimate and weight (models/stereo_cue.hpp)"
+             : text;
 }
 
 std::string depth_text(const DepthCompletionConfig& c) {
@@ -16,7 +19,8 @@ std::string depth_text(const DepthCompletionConfig& c) {
   if (c.depth_input == DepthInput::kMasked) {
     return text + "sparse depth / depth_scale_m, 0 = missing; 1 where there is a point, else 0";
   }
-  return text + "ln(sparse depth / prior), 0 = missing; 1 where there is a point, else 0; fill of the first; the " +
+  return text +
+         "ln(sparse depth / prior), 0 = missing; 1 where there is a point, else 0; fill of the first; the " +
          "fill's coarseness 0..1 (models/sparse_fill.hpp); ln(prior / depth_scale_m)";
 }
 

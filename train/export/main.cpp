@@ -43,7 +43,8 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 8192));
   app.add_option_function<std::string>(
          "--graph", [&options, graphs](const std::string& name) { options.part = graphs.at(name); },
-         "The whole network, or a half of it in a file of its own; all: the three, the halves beside the whole")
+         "The whole network, or a half of it in a file of its own; all: the three, the halves beside the "
+         "whole")
       ->default_str("all")
       ->check(CLI::IsMember(names));
   app.footer(kExamples);

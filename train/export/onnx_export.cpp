@@ -12,25 +12,39 @@ namespace {
 constexpr double kGroupNormEpsilon = 1e-5;  // torch::group_norm's
 constexpr std::size_t kDecoderLevels = 5;
 
-std::int64_t round_up(std::int64_t size, std::int64_t multiple) { return (size + multiple - 1) / multiple * multiple; }
+std::int64_t round_up(std::int64_t size, std::int64_t multiple) {
+  return (size + multiple - 1) / multiple * multiple;
+}
 
 /// Writes down, operator by operator, what DepthCompletionNet computes; parts have its names and its order.
 class NetworkGraph {
  public:
   NetworkGraph(DepthCompletionNet net, ExportSize size)
-      : net_(net), config_(net->config()), size_(size), modules_(net->named_modules()), parameters_(net->named_parameters()) {}
+      : net_(net),
+        config_(net->config()),
+        size_(size),
+        modules_(net->named_modules()),
+        parameters_(net->named_parameters()) {}
 
   std::string build(ExportedPart part) {
     switch (part) {
-      case ExportedPart::kImageEncoder: add_image_encoder(); break;
-      case ExportedPart::kRefinement: add_refinement(); break;
-      case ExportedPart::kWhole: add_whole(); break;
+      case ExportedPart::kImageEncoder:
+        add_image_encoder();
+        break;
+      case ExportedPart::kRefinement:
+        add_refinement();
+        break;
+      case ExportedPart::kWhole:
+        add_whole();
+        break;
     }
     return graph_.serialize(export_metadata(config_));
   }
 
  private:
-  OnnxValue image() { return graph_.input("image", image_channels(config_), size_.height_px, size_.width_px); }
+  OnnxValue image() {
+    return graph_.input("image", image_channels(config_), size_.height_px, size_.width_px);
+  }
   OnnxValue depth() {
     return graph_.input("depth", depth_channels(config_.depth_input), size_.height_px, size_.width_px);
   }
@@ -105,7 +119,9 @@ class NetworkGraph {
     return maps;
   }
 
-  std::vector<OnnxValue> image_features(const OnnxValue& input) { return encode(input, "image_encoder", true); }
+  std::vector<OnnxValue> image_features(const OnnxValue& input) {
+    return encode(input, "image_encoder", true);
+  }
 
   /// DepthCompletionNet::decode(), and the depth encoder before it
   OnnxValue decode(const OnnxValue& image_input, const std::vector<OnnxValue>& image_maps,
@@ -118,7 +134,8 @@ class NetworkGraph {
     OnnxValue x = fused(kDecoderLevels - 1);
     for (std::size_t i = 0; i + 1 < kDecoderLevels; ++i) {
       const OnnxValue skip = fused(kDecoderLevels - 2 - i);
-      x = block(graph_.concatenate({graph_.enlarge(x, skip.height, skip.width), skip}), "decoder" + std::to_string(i + 1));
+      x = block(graph_.concatenate({graph_.enlarge(x, skip.height, skip.width), skip}),
+                "decoder" + std::to_string(i + 1));
     }
     const std::int64_t full = config_.stem == Stem::kDownsample ? 2 : 1;
     x = graph_.enlarge(x, x.height * full, x.width * full);

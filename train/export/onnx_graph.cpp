@@ -82,8 +82,8 @@ std::string OnnxGraph::constant(const std::string& name, const Shape& shape, con
   tensor.set_name(name);
   tensor.set_data_type(onnx::TensorProto::FLOAT);
   for (const std::int64_t size : shape) tensor.add_dims(size);
-  const auto count =
-      static_cast<std::size_t>(std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>()));
+  const auto count = static_cast<std::size_t>(
+      std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>()));
   tensor.set_raw_data(data, count * sizeof(float));
   return name;
 }
@@ -104,7 +104,9 @@ std::string OnnxGraph::scalar(double value) {
 }
 
 OnnxValue OnnxGraph::convolution(const OnnxValue& x, const Convolution& layer) {
-  const auto out = [&](std::int64_t size) { return (size + 2 * layer.padding - layer.kernel) / layer.stride + 1; };
+  const auto out = [&](std::int64_t size) {
+    return (size + 2 * layer.padding - layer.kernel) / layer.stride + 1;
+  };
   const OnnxValue y{fresh_name("Conv"), layer.out_channels, out(x.height), out(x.width)};
   std::vector<std::string> inputs{x.name, layer.weight};
   if (!layer.bias.empty()) inputs.push_back(layer.bias);

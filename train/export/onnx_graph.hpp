@@ -45,7 +45,8 @@ class OnnxGraph {
     std::string scale;
     std::string shift;
   };
-  OnnxValue group_normalization(const OnnxValue& x, std::int64_t groups, double epsilon, const Affine& affine);
+  OnnxValue group_normalization(const OnnxValue& x, std::int64_t groups, double epsilon,
+                                const Affine& affine);
   OnnxValue relu(const OnnxValue& x) { return unary("Relu", x); }
   OnnxValue sigmoid(const OnnxValue& x) { return unary("Sigmoid", x); }
   OnnxValue tanh(const OnnxValue& x) { return unary("Tanh", x); }

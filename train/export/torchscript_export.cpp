@@ -36,7 +36,8 @@ Tensors tensors(const Stack& stack) {
 Stack example_inputs(DepthCompletionNet net, ExportSize size, ExportedPart part) {
   const DepthCompletionConfig& config = net->config();
   const torch::Tensor image = torch::rand({1, image_channels(config), size.height_px, size.width_px});
-  const torch::Tensor depth = torch::rand({1, depth_channels(config.depth_input), size.height_px, size.width_px});
+  const torch::Tensor depth =
+      torch::rand({1, depth_channels(config.depth_input), size.height_px, size.width_px});
   if (part == ExportedPart::kImageEncoder) return {image};
   if (part == ExportedPart::kWhole) return {image, depth};
   Stack inputs;
