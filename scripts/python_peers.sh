@@ -11,12 +11,14 @@ folder=$(realpath -m "${ALIGHT_PEERS:-build/peers}")
 module_of() {
   case $1 in
     tensorboard) echo tensorboard ;;
+    onnxruntime) echo onnxruntime ;;
     *) return 1 ;;
   esac
 }
 packages_of() {
   case $1 in
     tensorboard) echo 'tensorboard>=2.15,<3' pillow ;;
+    onnxruntime) echo 'onnxruntime>=1.16,<2' ;;
   esac
 }
 
@@ -25,9 +27,9 @@ skip() {
   exit 77
 }
 
-[ $# -gt 0 ] || { echo "usage: scripts/python_peers.sh peer...   (peers: tensorboard)" >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: scripts/python_peers.sh peer...   (peers: tensorboard, onnxruntime)" >&2; exit 2; }
 for peer in "$@"; do
-  module_of "$peer" >/dev/null || { echo "python_peers: $peer: no such peer (peers: tensorboard)" >&2; exit 2; }
+  module_of "$peer" >/dev/null || { echo "python_peers: $peer: no such peer (peers: tensorboard, onnxruntime)" >&2; exit 2; }
 done
 
 mkdir -p "$(dirname "$folder")"
