@@ -7,6 +7,7 @@
 #include "cli/command_line.hpp"
 #include "models/network_summary.hpp"
 #include "train/plot_command.hpp"
+#include "train/provenance.hpp"
 #include "train/run_folder.hpp"
 #include "train/train_config.hpp"
 #include "train/trainer.hpp"
@@ -97,6 +98,8 @@ int run(const Options& options) {
     throw ConfigError("--output is missing: name the folder that the run is written to");
   RunFolder folder(options.output);
   folder.write("config.yaml", print_config(config));
+  folder.write("provenance.yaml", "git_revision: " + git_revision() + "\ndataset: " + config.dataset +
+                                      "\ndata_hash: " + data_hash(config.dataset) + "\n");
   return train(config, folder, false);
 }
 

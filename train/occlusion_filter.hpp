@@ -9,9 +9,10 @@ namespace alight {
 /// Which points of the ground truth are trusted. A point measured a second before the image may lie behind what the
 /// image shows: the vehicle has moved, and saw it past the roof that hides it now.
 struct OcclusionFilterConfig {
-  int window_px = 0;          ///< side of the neighbourhood that may hide a point, odd; 0: off, the paper
+  int window_px = 0;           ///< side of the neighbourhood that may hide a point, odd; 0: off, the paper
   double min_offset_s = 0.25;  ///< points nearer in time to the image are always trusted
-  double margin = 0.03;        ///< share of its depth by which a hidden point lies behind the nearest of its neighbours
+  double margin =
+      0.03;  ///< share of its depth by which a hidden point lies behind the nearest of its neighbours
 };
 void bind(Binder& b, OcclusionFilterConfig& c);
 

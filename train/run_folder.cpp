@@ -1,6 +1,7 @@
 #include "train/run_folder.hpp"
 
 #include <cstdlib>
+#include <sstream>
 #include <system_error>
 
 #include "cli/output_folder.hpp"
@@ -32,6 +33,14 @@ bool RunFolder::has(const std::string& name) const {
 
 void RunFolder::write(const std::string& name, const std::string& content) const {
   write_file_atomically(file(name), content);
+}
+
+std::string RunFolder::read(const std::string& name) const {
+  std::ifstream stream(file(name), std::ios::binary);
+  std::ostringstream content;
+  content << stream.rdbuf();
+  if (!stream) throw DataError(file(name).string() + ": cannot be read");
+  return content.str();
 }
 
 void RunFolder::append_metrics(const std::vector<std::string>& cells) {

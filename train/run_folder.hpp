@@ -8,7 +8,8 @@
 
 namespace alight {
 
-/// The folder of a training run: config.yaml, metrics.csv, last.pt, best.pt, validation.txt. It exists from
+/// The folder of a training run: config.yaml, provenance.yaml (commit and data), metrics.csv, TensorBoard events, last.pt,
+/// best.pt, validation.txt. It exists from
 /// the first step on, so that a run that is stopped leaves its checkpoints; an earlier run's folder is
 /// refused unless it is asked for.
 class RunFolder {
@@ -23,6 +24,8 @@ class RunFolder {
   bool has(const std::string& name) const;
   /// @throws DataError
   void write(const std::string& name, const std::string& content) const;
+  /// @throws DataError
+  std::string read(const std::string& name) const;
   /// Adds a line to metrics.csv. @throws DataError
   void append_metrics(const std::vector<std::string>& cells);
   /// Leaves the rows of metrics.csv whose first cell, the epoch, is no more than this; the head goes with the last of

@@ -13,6 +13,7 @@ namespace alight {
 namespace {
 
 constexpr std::size_t kTerms = 5;
+constexpr char kProvenanceFile[] = "provenance.yaml";
 
 std::string number(double value) {
   char text[32];
@@ -200,29 +201,46 @@ void Trainer::finish_epoch(int epoch, double seconds) {
 }
 
 void Trainer::write_metrics(int epoch, const std::optional<ValidationReport>& report, double seconds) {
-  std::vector<std::string> head{"epoch", "steps",       "total",      "depth",
-                                "ratio", "photometric", "smoothness", "learning_rate"};
+  std::vector<std::string> names{"total", "depth", "ratio", "photometric", "smoothness", "learning_rate"};
   const Losses losses = mean_losses();
-  std::vector<std::string> cells{std::to_string(epoch), std::to_string(progress_.step),
-                                 number(losses[4]),     number(losses[0]),
-                                 number(losses[1]),     number(losses[2]),
-                                 number(losses[3]),     number(learning_rate_)};
+  std::vector<double> numbers{losses[4], losses[0], losses[1], losses[2], losses[3], learning_rate_};
   if (report) {
     for (const ValidationRow& row : report->network) {
-      head.push_back("rmse_mm_" + row.name);
-      cells.push_back(number(row.ground_truth.rmse_mm()));
+      names.push_back("rmse_mm_" + row.name);
+      numbers.push_back(row.ground_truth.rmse_mm());
     }
-    head.emplace_back("rmse_mm_altitude_plane");
-    cells.push_back(number(report->altitude_plane.ground_truth.rmse_mm()));
+    names.emplace_back("rmse_mm_altitude_plane");
+    numbers.push_back(report->altitude_plane.ground_truth.rmse_mm());
   }
-  head.emplace_back("seconds");
-  cells.push_back(number(seconds));
+  names.emplace_back("seconds");
+  numbers.push_back(seconds);
+  std::vector<std::string> head{"epoch", "steps"};
+  head.insert(head.end(), names.begin(), names.end());
+  std::vector<std::string> cells{std::to_string(epoch), std::to_string(progress_.step)};
+  for (const double value : numbers) cells.push_back(number(value));
   if (epoch == 1) folder_.append_metrics(head);
   folder_.append_metrics(cells);
+  write_events(names, numbers);
+}
+
+void Trainer::write_events(const std::vector<std::string>& names, const std::vector<double>& values) {
+  std::vector<std::pair<std::string, double>> scalars;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool error = names[i].rfind("rmse_mm_", 0) == 0;
+    scalars.emplace_back((error ? "validation/" : "training/") + names[i], values[i]);
+  }
+  events_->scalars(progress_.step, scalars);
+  events_->weights(progress_.step, net_);
+  if (validation_ != nullptr) events_->panel(progress_.step, flying_, validation_->get(0));
+  events_->flush();
 }
 
 void Trainer::run() {
   const TrainingLoopConfig& c = config_.train;
+  const bool resumed = progress_.step > 0;
+  events_.emplace(folder_.path(), resumed ? std::optional(progress_.step) : std::nullopt);
+  events_->describe(progress_.step, progress_.train_config,
+                    folder_.has(kProvenanceFile) ? folder_.read(kProvenanceFile) : std::string());
   for (auto epoch = static_cast<int>(progress_.epoch) + 1; epoch <= c.epochs; ++epoch) {
     if (c.early_stop_epochs > 0 && progress_.epoch - progress_.best_epoch >= c.early_stop_epochs) {
       spdlog::info("no better validation for {} epochs: the run ends early", c.early_stop_epochs);

@@ -11,6 +11,7 @@
 #include "models/depth_completion_net.hpp"
 #include "train/batch.hpp"
 #include "train/batch_loader.hpp"
+#include "train/run_events.hpp"
 #include "train/run_folder.hpp"
 #include "train/sample_cache.hpp"
 #include "train/train_config.hpp"
@@ -52,6 +53,7 @@ class Trainer {
   void check_finite(const LossTerms& terms, const Batch& batch) const;
   void finish_epoch(int epoch, double seconds);
   void write_metrics(int epoch, const std::optional<ValidationReport>& report, double seconds);
+  void write_events(const std::vector<std::string>& names, const std::vector<double>& values);
   std::optional<ValidationReport> validate_epoch();
   void save(const std::string& name);
   Losses mean_losses() const;
@@ -66,6 +68,7 @@ class Trainer {
   std::optional<Optimizer> optimizer_;
   double learning_rate_ = 0;
   CheckpointInfo progress_;
+  std::optional<RunEvents> events_;
 };
 
 }  // namespace alight

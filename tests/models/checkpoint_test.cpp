@@ -142,7 +142,7 @@ TEST_F(Checkpoint, FullDiskLeavesTheFileBeforeAsItWas) {
   const rlimit small{1000, unlimited.rlim_max};
   signal(SIGXFSZ, SIG_IGN);  // writing past the limit is then an error, as on a full disk
   setrlimit(RLIMIT_FSIZE, &small);
-  const std::string message = data_error([&] { save_checkpoint(folder_ / "net.pt", net, {1, 1, "x"}); });
+  const std::string message = data_error([&] { save_checkpoint(folder_ / "net.pt", net, {1, 1, "x", 0, {}}); });
   setrlimit(RLIMIT_FSIZE, &unlimited);
   EXPECT_THAT(message, HasSubstr("net.pt"));
   EXPECT_EQ(bytes(folder_ / "net.pt"), before);

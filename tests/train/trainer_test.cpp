@@ -82,6 +82,11 @@ TEST_F(TrainerTest, RunFolderHoldsCheckpointsAndMetrics) {
   EXPECT_EQ(last.info.step, 6);
   EXPECT_THAT(last.info.train_config, testing::HasSubstr("batch_size: 2"));
   EXPECT_TRUE(fs::exists(root_ / "run" / "best.pt"));
+  const auto events = std::count_if(fs::directory_iterator(root_ / "run"), {}, [](const auto& entry) {
+    return entry.path().filename().string().rfind("events.out.tfevents.", 0) == 0 &&
+           entry.file_size() > 10'000;
+  });
+  EXPECT_EQ(events, 1);
   std::istringstream metrics(bytes("run/metrics.csv"));
   std::string head, line;
   std::getline(metrics, head);
