@@ -1,12 +1,17 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+
+#include <spdlog/spdlog.h>
 
 #include "cli/command_line.hpp"
 #include "dataset/dataset_builder.hpp"
 #include "infer/benchmark.hpp"
 #include "infer/network_predictor.hpp"
 #include "infer/replay.hpp"
+#include "infer/shipped_model.hpp"
 
 namespace alight {
 namespace {
@@ -25,13 +30,16 @@ void add_options(CLI::App& app, Options& options) {
   add_config_options(app, options.config);
   app.add_option("-l,--log", options.log, "ROS 1 bag to replay");
   app.add_option("-o,--output", options.output, "Folder to make; must not exist");
-  app.add_option("--checkpoint", options.checkpoint, "Trained network, in place of the configuration's");
+  app.add_option(
+      "--checkpoint", options.checkpoint,
+      "Trained network, in place of the configuration's; neither: the one that came with the program");
   app.add_option("--landing", options.landing, "Landing configuration, in place of the section `landing`");
   app.add_flag("--lidar-only", options.lidar_only, "No network: interpolate the LiDAR of max_accumulation_s");
   app.add_flag("--benchmark", options.benchmark,
                "Print median and 95th percentile of every stage, on --log or on synthetic frames");
   app.footer(
       "Examples:\n"
+      "  alight-infer --log flight.bag --output out/flight\n"
       "  alight-infer --config configs/infer/default.yaml --checkpoint runs/demo/best.pt --log flight.bag "
       "--output out/flight\n"
       "  alight-infer --log flight.bag --output out/lidar --lidar-only\n"
@@ -48,14 +56,20 @@ ReplayConfig resolve(const Options& options) {
   return config;
 }
 
-/// Whoever names neither a network nor --lidar-only has most likely forgotten the first.
+/// The network that was named, or the one that comes with the program.
 std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const ReplayConfig& config,
                                                const Rig& rig) {
-  if (config.checkpoint) {
-    return make_network_predictor(*config.checkpoint, engine_rig(config.engine, rig), config.threads);
+  if (options.lidar_only) return nullptr;
+  std::optional<std::filesystem::path> checkpoint;
+  if (config.checkpoint) checkpoint = *config.checkpoint;
+  if (!checkpoint && (checkpoint = find_shipped_model(this_executable()))) {
+    spdlog::info("network: {} (no --checkpoint was named)", checkpoint->string());
   }
-  if (options.lidar_only || options.benchmark) return nullptr;
-  throw ConfigError("no network: name one with --checkpoint, or say --lidar-only to work without");
+  if (!checkpoint) {
+    throw ConfigError(
+        "no network: none came with this program; name one with --checkpoint, or say --lidar-only");
+  }
+  return make_network_predictor(*checkpoint, engine_rig(config.engine, rig), config.threads);
 }
 
 int run_benchmark(const Options& options, const ReplayConfig& config, const Rig& rig) {

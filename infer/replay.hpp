@@ -15,7 +15,7 @@ namespace alight {
 /// A flight log replayed through the onboard loop. Files: configs/infer/*.yaml
 struct ReplayConfig {
   std::string rig = "configs/rigs/paper.yaml";
-  std::optional<std::string> checkpoint;  ///< none: LiDAR alone
+  std::optional<std::string> checkpoint;  ///< none: the one that came with the program
   int threads = 0;                        ///< for the network; 0: all
   int overlay_every = 20;                 ///< a picture every so many images; 0: none
   bool write_timings = true;  ///< stages_ms in results.jsonl; without, runs are equal byte for byte

@@ -133,6 +133,27 @@ void assign(const Reader& reader, const TensorDict& file, const std::string& nam
   target.copy_(source);
 }
 
+void write_archive(const fs::path& path, DepthCompletionNet net, const CheckpointInfo& info,
+                   const TensorDict& weights, const TensorDict& training_weights, const TensorDict& adam) {
+  torch::serialize::OutputArchive archive;
+  archive.write(kVersionKey, c10::IValue(kCheckpointVersion));
+  archive.write("model_config", c10::IValue(print_config(net->config())));
+  archive.write("train_config", c10::IValue(info.train_config));
+  archive.write("epoch", c10::IValue(info.epoch));
+  archive.write("step", c10::IValue(info.step));
+  archive.write("epoch_step", c10::IValue(info.epoch_step));
+  archive.write("epoch_losses", c10::IValue(info.epoch_losses));
+  archive.write("best_score", c10::IValue(info.best_score));
+  archive.write("best_epoch", c10::IValue(info.best_epoch));
+  archive.write("weights", c10::IValue(weights));
+  archive.write("training_weights", c10::IValue(training_weights));
+  archive.write("adam", c10::IValue(adam));
+  // Through a stream, because a file's archive carries the file's name: equal networks are equal bytes.
+  std::ostringstream bytes;
+  archive.save_to(bytes);
+  write_file_atomically(path, bytes.str());
+}
+
 void assign_weights(Reader& reader, const char* key, DepthCompletionNet net) {
   const TensorDict file = reader.tensors(key);
   for (const auto& item : net->named_parameters()) assign(reader, file, item.key(), item.value());
@@ -176,25 +197,17 @@ void assign_adam(Reader& reader, DepthCompletionNet net, torch::optim::Adam& ada
 
 void save_checkpoint(const fs::path& path, DepthCompletionNet net, const CheckpointInfo& info,
                      const TrainingState& training) {
-  torch::serialize::OutputArchive archive;
-  archive.write(kVersionKey, c10::IValue(kCheckpointVersion));
-  archive.write("model_config", c10::IValue(print_config(net->config())));
-  archive.write("train_config", c10::IValue(info.train_config));
-  archive.write("epoch", c10::IValue(info.epoch));
-  archive.write("step", c10::IValue(info.step));
-  archive.write("epoch_step", c10::IValue(info.epoch_step));
-  archive.write("epoch_losses", c10::IValue(info.epoch_losses));
-  archive.write("best_score", c10::IValue(info.best_score));
-  archive.write("best_epoch", c10::IValue(info.best_epoch));
-  archive.write("weights", c10::IValue(named_tensors(net)));
   const bool average = training.net && training.net.ptr() != net.ptr();
-  archive.write("training_weights", c10::IValue(average ? named_tensors(training.net) : TensorDict()));
-  archive.write("adam", c10::IValue(training.adam != nullptr ? adam_state(training.net, *training.adam)
-                                                             : TensorDict()));
-  // Through a stream, because a file's archive carries the file's name: equal networks are equal bytes.
-  std::ostringstream bytes;
-  archive.save_to(bytes);
-  write_file_atomically(path, bytes.str());
+  write_archive(path, net, info, named_tensors(net), average ? named_tensors(training.net) : TensorDict(),
+                training.adam != nullptr ? adam_state(training.net, *training.adam) : TensorDict());
+}
+
+void save_network(const fs::path& path, DepthCompletionNet net, const CheckpointInfo& info) {
+  TensorDict weights;
+  for (const auto& item : named_tensors(net)) {
+    weights.insert(item.key(), item.value().dim() > 1 ? item.value().to(torch::kFloat16) : item.value());
+  }
+  write_archive(path, net, info, weights, TensorDict(), TensorDict());
 }
 
 LoadedNetwork load_network(const fs::path& path, torch::Device device) {

@@ -46,6 +46,10 @@ struct TrainingState {
 void save_checkpoint(const std::filesystem::path& path, DepthCompletionNet net,
                      const CheckpointInfo& info = {}, const TrainingState& training = {});
 
+/// The network alone for passing on: convolutions in half precision (2^-11 relative), the rest as it is; a sixth of a
+/// training run's checkpoint. load_network reads it as any other. @throws DataError if it cannot be written
+void save_network(const std::filesystem::path& path, DepthCompletionNet net, const CheckpointInfo& info = {});
+
 /// Reads a network; the architecture comes from the file.
 /// @throws DataError: missing file, no checkpoint, newer version, tensors that do not fit the stated
 /// architecture

@@ -16,8 +16,9 @@ constexpr double kPanelWindow_s = 0.3;
 cv::Mat picture(const torch::Tensor& image) {
   const torch::Tensor bytes = (image[0] * 255).round().to(torch::kUInt8).permute({1, 2, 0}).contiguous();
   cv::Mat bgr;
-  cv::cvtColor(cv::Mat(static_cast<int>(bytes.size(0)), static_cast<int>(bytes.size(1)), CV_8UC3, bytes.data_ptr()),
-               bgr, cv::COLOR_RGB2BGR);
+  cv::cvtColor(
+      cv::Mat(static_cast<int>(bytes.size(0)), static_cast<int>(bytes.size(1)), CV_8UC3, bytes.data_ptr()),
+      bgr, cv::COLOR_RGB2BGR);
   return bgr;
 }
 
@@ -39,7 +40,8 @@ void RunEvents::scalars(std::int64_t step, const std::vector<std::pair<std::stri
 
 void RunEvents::weights(std::int64_t step, const DepthCompletionNet& net) {
   for (const auto& item : net->named_parameters()) {
-    const torch::Tensor values = item.value().detach().to(torch::kCPU, torch::kFloat32).flatten().contiguous();
+    const torch::Tensor values =
+        item.value().detach().to(torch::kCPU, torch::kFloat32).flatten().contiguous();
     const float* begin = values.data_ptr<float>();
     file_.histogram("weights/" + item.key(), step, {begin, begin + values.numel()});
   }

@@ -123,6 +123,24 @@ TEST_F(Checkpoint, NetworkThatLearnsIsKeptBesideTheOneThatFlies) {
   EXPECT_TRUE(torch::equal(weight(resumed_flying), weight(flying)));
 }
 
+TEST_F(Checkpoint, NetworkToPassOnIsSmallAndNearlyTheSame) {
+  DepthCompletionNet net(tiny_config());
+  torch::optim::Adam adam(net->parameters(), 1e-3);
+  train_step(net, adam, 1);
+  net->eval();
+  save_checkpoint(folder_ / "run.pt", net, {}, {net, &adam});
+  save_network(folder_ / "net.pt", net);
+  EXPECT_LT(fs::file_size(folder_ / "net.pt"), 0.5 * static_cast<double>(fs::file_size(folder_ / "run.pt")));
+  const LoadedNetwork loaded = load_network(folder_ / "net.pt");
+  const torch::NoGradGuard no_grad;
+  const torch::Tensor image = torch::rand({1, 3, 32, 32});
+  const torch::Tensor sparse_m = random_sparse_m(1, 32, 32);
+  EXPECT_TRUE(
+      torch::allclose(loaded.net->forward({image}, sparse_m), net->forward({image}, sparse_m), 1e-2, 0));
+  for (const auto& item : loaded.net->named_parameters())
+    EXPECT_EQ(item.value().scalar_type(), torch::kFloat32);
+}
+
 TEST_F(Checkpoint, WithoutTrainingStateNothingIsResumed) {
   DepthCompletionNet net(tiny_config());
   save_checkpoint(folder_ / "net.pt", net);
@@ -142,7 +160,9 @@ TEST_F(Checkpoint, FullDiskLeavesTheFileBeforeAsItWas) {
   const rlimit small{1000, unlimited.rlim_max};
   signal(SIGXFSZ, SIG_IGN);  // writing past the limit is then an error, as on a full disk
   setrlimit(RLIMIT_FSIZE, &small);
-  const std::string message = data_error([&] { save_checkpoint(folder_ / "net.pt", net, {1, 1, "x", 0, {}}); });
+  const std::string message = data_error([&] {
+    save_checkpoint(folder_ / "net.pt", net, {1, 1, "x", 0, {}});
+  });
   setrlimit(RLIMIT_FSIZE, &unlimited);
   EXPECT_THAT(message, HasSubstr("net.pt"));
   EXPECT_EQ(bytes(folder_ / "net.pt"), before);

@@ -19,7 +19,7 @@ Exporter exporter_for(const fs::path& output) {
   if (extension == ".onnx") return onnx_model;
   if (extension == ".torchscript" || extension == ".ts") return torchscript_model;
   throw ConfigError(output.string() +
-                    ": the format is told by the name's end; use .onnx, .torchscript or .ts");
+                    ": the format is told by the name's end; use .onnx, .torchscript, .ts or .pt");
 }
 
 fs::path with_suffix(const fs::path& output, const std::string& suffix) {

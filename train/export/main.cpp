@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,7 +17,9 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  alight-export --checkpoint runs/demo/best.pt --output net.onnx\n"
     "  alight-export --checkpoint runs/demo/best.pt --output net.onnx --size 640 352 --graph whole\n"
-    "  alight-export --checkpoint runs/demo/best.pt --output net.torchscript\n";
+    "  alight-export --checkpoint runs/demo/best.pt --output net.torchscript\n"
+    "  alight-export --checkpoint runs/demo/best.pt --output models/mine.pt   (half precision, no training "
+    "state)\n";
 
 struct Options {
   std::string checkpoint;
@@ -35,7 +38,9 @@ void add_options(CLI::App& app, Options& options) {
   for (const auto& item : graphs) names.push_back(item.first);
   app.add_option("-c,--checkpoint", options.checkpoint, "Network of alight-train, such as runs/demo/best.pt")
       ->required();
-  app.add_option("-o,--output", options.output, "File to write: .onnx, or TorchScript as .torchscript or .ts")
+  app.add_option(
+         "-o,--output", options.output,
+         "File to write: .onnx, TorchScript as .torchscript or .ts, or a checkpoint to pass on as .pt")
       ->required();
   app.add_option("--size", options.size_px, "Width and height of the images, or one number for both, pixels")
       ->expected(1, 2)
@@ -52,6 +57,11 @@ void add_options(CLI::App& app, Options& options) {
 
 int run(const Options& options) {
   const LoadedNetwork network = load_network(options.checkpoint);
+  if (std::filesystem::path(options.output).extension() == ".pt") {
+    save_network(options.output, network.net, network.info);
+    std::printf("wrote %s\n", options.output.c_str());
+    return kExitOk;
+  }
   const ExportSize size{options.size_px.back(), options.size_px.front()};
   for (const auto& path : export_files(options.output, network.net, size, options.part)) {
     std::printf("wrote %s (%lld x %lld px)\n", path.string().c_str(), static_cast<long long>(size.width_px),
