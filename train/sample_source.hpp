@@ -30,6 +30,7 @@ class DatasetSource : public SampleSource {
   std::size_t size() const override { return *dataset_.size(); }
   DepthSample get(std::size_t index) override { return dataset_.get(index); }
   Eigen::Vector3d down_camera(std::size_t index) const override;
+  const DepthDataset& dataset() const { return dataset_; }
 
  private:
   DepthDataset dataset_;

@@ -11,14 +11,16 @@ namespace alight {
 namespace {
 
 std::int64_t twice_area(cv::Point a, cv::Point b, cv::Point c) {
-  return static_cast<std::int64_t>(b.x - a.x) * (c.y - a.y) - static_cast<std::int64_t>(b.y - a.y) * (c.x - a.x);
+  return static_cast<std::int64_t>(b.x - a.x) * (c.y - a.y) -
+         static_cast<std::int64_t>(b.y - a.y) * (c.x - a.x);
 }
 
 std::int64_t twice_area(const std::vector<cv::Point>& points, const std::vector<Triangle>& triangles) {
   std::int64_t sum = 0;
   for (const auto& [a, b, c] : triangles) {
-    const std::int64_t area = twice_area(points.at(static_cast<std::size_t>(a)), points.at(static_cast<std::size_t>(b)),
-                                         points.at(static_cast<std::size_t>(c)));
+    const std::int64_t area =
+        twice_area(points.at(static_cast<std::size_t>(a)), points.at(static_cast<std::size_t>(b)),
+                   points.at(static_cast<std::size_t>(c)));
     EXPECT_GT(area, 0) << "not counter-clockwise";
     sum += area;
   }
@@ -41,7 +43,8 @@ std::int64_t twice_hull_area(std::vector<cv::Point> points) {
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t start = hull.size();
     for (const cv::Point& p : points) {
-      while (hull.size() >= start + 2 && twice_area(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      while (hull.size() >= start + 2 && twice_area(hull[hull.size() - 2], hull.back(), p) <= 0)
+        hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();

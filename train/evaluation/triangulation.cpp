@@ -191,7 +191,8 @@ class Triangulator {
     if (!is_right(edges_.target(e), base)) return e;
     while (true) {
       const int behind = counter_clockwise ? edges_.next(e) : edges_.previous(e);
-      if (!in_circle(edges_.target(base), edges_.origin(base), edges_.target(e), edges_.target(behind))) return e;
+      if (!in_circle(edges_.target(base), edges_.origin(base), edges_.target(e), edges_.target(behind)))
+        return e;
       edges_.remove(e);
       e = behind;
     }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <torch/torch.h>
+
+#include "dataset/depth_dataset.hpp"
+
+namespace alight {
+
+/// Something that completes sparse depth.
+class DepthMethod {
+ public:
+  virtual ~DepthMethod() = default;
+  virtual std::string name() const = 0;
+  /// Called from several threads at once.
+  /// @param sample what else a method may look at: images, height, intrinsics; never its truth or its unfed points
+  /// @param fed_m [1,H,W] float32, plane depth in metres of the points to complete, 0 = none
+  /// @param down_camera the world's down in camera coordinates, unit length
+  /// @returns [1,H,W] float32, plane depth in metres, 0 = unknown
+  virtual torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m,
+                                 const Eigen::Vector3d& down_camera) const = 0;
+};
+
+using DepthMethods = std::vector<std::unique_ptr<DepthMethod>>;
+
+}  // namespace alight
