@@ -30,7 +30,8 @@ TEST_P(EveryTool, VersionIsPrinted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tools, EveryTool,
-                         ::testing::Values("alight-sim", "alight-dataset", "alight-train", "alight-infer"));
+                         ::testing::Values("alight-sim", "alight-dataset", "alight-train", "alight-evaluate",
+                                           "alight-evaluate depth", "alight-infer"));
 
 class ShippedConfig : public ::testing::TestWithParam<const char*> {};
 

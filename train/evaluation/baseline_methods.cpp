@@ -17,7 +17,8 @@ class Interpolation : public DepthMethod {
   Interpolation(std::string name, std::function<cv::Mat(const cv::Mat&)> fill)
       : name_(std::move(name)), fill_(std::move(fill)) {}
   std::string name() const override { return name_; }
-  torch::Tensor complete(const DepthSample&, const torch::Tensor& fed_m, const Eigen::Vector3d&) const override {
+  torch::Tensor complete(const DepthSample&, const torch::Tensor& fed_m,
+                         const Eigen::Vector3d&) const override {
     return depth_to_tensor(fill_(tensor_to_depth(fed_m)));
   }
 

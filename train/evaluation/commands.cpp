@@ -23,7 +23,8 @@ std::vector<double> parse_block(const std::string& text) {
   const bool read = std::sscanf(text.c_str(), "%lf:%lf%n", &begin, &end, &used) == 2 &&
                     static_cast<std::size_t>(used) == text.size();
   if (read && begin >= 0 && begin < end && end <= 1) return {begin, end};
-  throw ConfigError("--blocks: \"" + text + "\" is no block; write begin:end, shares of a flight within 0..1, such "
+  throw ConfigError("--blocks: \"" + text +
+                    "\" is no block; write begin:end, shares of a flight within 0..1, such "
                     "as 0.4:0.6");
 }
 
@@ -49,7 +50,8 @@ DepthMethods make_methods(const EvaluateOptions& options, const EvaluationConfig
 
 std::vector<SampleTime> sample_times(const DepthDataset& dataset) {
   std::vector<SampleTime> times;
-  for (std::size_t i = 0; i < *dataset.size(); ++i) times.push_back({dataset.flight(i).name, dataset.row(i).t_ns});
+  for (std::size_t i = 0; i < *dataset.size(); ++i)
+    times.push_back({dataset.flight(i).name, dataset.row(i).t_ns});
   return times;
 }
 
@@ -93,7 +95,8 @@ std::vector<std::pair<std::string, std::string>> about(const EvaluateOptions& op
 
 void check_options(const EvaluateOptions& options) {
   if (options.data.empty()) throw ConfigError("--data is missing: name a data set of alight-dataset build");
-  if (options.output.empty()) throw ConfigError("--output is missing: name the table to write, .md, .csv or .json");
+  if (options.output.empty())
+    throw ConfigError("--output is missing: name the table to write, .md, .csv or .json");
   check_table_path(options.output);
 }
 
@@ -126,7 +129,8 @@ int run_evaluate(const EvaluateOptions& options) {
 }
 
 int run_depth(const DepthOptions& options) {
-  const ReplayConfig infer = options.config.empty() ? ReplayConfig() : load_config<ReplayConfig>(options.config);
+  const ReplayConfig infer =
+      options.config.empty() ? ReplayConfig() : load_config<ReplayConfig>(options.config);
   const ImageTaskConfig& image = infer.engine.image;
   const Rig rig = load_rig(options.rig);
   DepthCheckInput input;

@@ -14,9 +14,10 @@ struct EvaluateOptions {
   std::string data;
   std::string output;
   std::vector<std::string> flights;  ///< in place of the configuration's
-  std::vector<std::string> blocks;   ///< "0.4:0.6": only these parts of the flights, in place of `split` and `part`
-  int every = 0;                     ///< 0: the configuration's
-  std::string pictures;              ///< folder to make; empty: none
+  std::vector<std::string>
+      blocks;            ///< "0.4:0.6": only these parts of the flights, in place of `split` and `part`
+  int every = 0;         ///< 0: the configuration's
+  std::string pictures;  ///< folder to make; empty: none
   int picture_count = 8;
 };
 

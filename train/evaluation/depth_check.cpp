@@ -13,15 +13,17 @@ namespace {
 std::string text(cv::Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
 
 RectifiedRig rig_of_images(const Rig& rig, cv::Size size, bool centre_cropped) {
-  if (!rig.cam1) throw ConfigError("the rig has no cam1: without a right camera there is no stereo test; add it");
+  if (!rig.cam1)
+    throw ConfigError("the rig has no cam1: without a right camera there is no stereo test; add it");
   const RectifiedRig whole = StereoRectifier(rig).rig();
   const cv::Size expected = whole.intrinsics.size();
   if (size == expected) return whole;
   if (centre_cropped && size.width <= expected.width && size.height <= expected.height) {
     return crop(whole, centre_crop(expected, size));
   }
-  throw DataError("the left image has " + text(size) + " pixels, the rig's cameras have " + text(expected) +
-                  "; give the rig of these images, or --centre-cropped if they are the centres of larger ones");
+  throw DataError(
+      "the left image has " + text(size) + " pixels, the rig's cameras have " + text(expected) +
+      "; give the rig of these images, or --centre-cropped if they are the centres of larger ones");
 }
 
 void check_sizes(const DepthCheckInput& input) {
@@ -50,7 +52,7 @@ std::string line(const char* format, Values... values) {
   return buffer;
 }
 
-std::string line(const char* name, const std::optional<double>& value, const char* meaning) {
+std::string score_line(const char* name, const std::optional<double>& value, const char* meaning) {
   return value ? line("%-10s %.4f  %s\n", name, *value, meaning) : line("%-10s -       %s\n", name, meaning);
 }
 
@@ -68,7 +70,8 @@ DepthCheckResult check_depth(const DepthCheckInput& input, const Rig& rig, const
   }
   DepthCheckResult result;
   result.scores = test.score(prediction, lidar ? &*lidar : nullptr);
-  if (config.stereo.probe > 0 && paper_accepts(result.scores, config.stereo)) {
+  result.paper_accepts = paper_accepts(result.scores, config.stereo);
+  if (config.stereo.probe > 0 && result.paper_accepts) {
     result.scores.peak = test.peak(input.depth_m, prediction, config.stereo.probe);
   }
   result.verdict = judge(result.scores, config.stereo);
@@ -78,16 +81,19 @@ DepthCheckResult check_depth(const DepthCheckInput& input, const Rig& rig, const
 
 std::string format_check(const DepthCheckResult& result) {
   const StereoScores& scores = result.scores;
-  std::string text = line("sim", scores.sim, "left image as it is, against the right one");
-  text += line("sim_d", scores.sim_d, "left image moved by the LiDAR depth");
-  text += line("sim_pred", scores.sim_pred, "left image moved by the depth map");
-  text += line("share", scores.share, "of the image compared");
-  text += line("peak", scores.peak, "sim_pred above that of nearer and farther depth");
+  std::string text = score_line("sim", scores.sim, "left image as it is, against the right one");
+  text += score_line("sim_d", scores.sim_d, "left image moved by the LiDAR depth");
+  text += score_line("sim_pred", scores.sim_pred, "left image moved by the depth map");
+  text += score_line("share", scores.share, "of the image compared");
+  text += score_line("peak", scores.peak, "sim_pred above that of nearer and farther depth");
+  text += line("%-10s %s\n", "paper", result.paper_accepts ? "accept" : "reject");
   text += line("%-10s %s\n", "verdict", name(result.verdict));
   if (!result.errors) return text;
-  for (const Metric metric : kMetrics) text += line("%-18s %.2f\n", title(metric), result.errors->value(metric));
-  text += line("%-18s %lld, %lld more have no depth\n", "pixels compared",
-               static_cast<long long>(result.errors->pixels()), static_cast<long long>(result.errors->unknown()));
+  for (const Metric metric : kMetrics)
+    text += line("%-18s %.2f\n", title(metric), result.errors->value(metric));
+  text +=
+      line("%-18s %lld, %lld more have no depth\n", "pixels compared",
+           static_cast<long long>(result.errors->pixels()), static_cast<long long>(result.errors->unknown()));
   return text;
 }
 

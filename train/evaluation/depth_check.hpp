@@ -29,8 +29,9 @@ struct DepthCheckConfig {
 
 struct DepthCheckResult {
   StereoScores scores;
-  Verdict verdict = Verdict::kNoEvidence;
-  std::optional<PixelErrors> errors;  ///< against the truth
+  bool paper_accepts = false;              ///< one of the paper's two rules holds
+  Verdict verdict = Verdict::kNoEvidence;  ///< with what the configuration asks for besides
+  std::optional<PixelErrors> errors;       ///< against the truth
 };
 
 /// The paper's self-evaluation (3.2) of any depth map. The rig needs two cameras, and a LiDAR only if sim_d is to be

@@ -13,7 +13,8 @@ namespace {
 
 cv::Mat read_file(const std::filesystem::path& path, int flags) {
   std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) throw DataError(path.string() + ": there is no such file");
+  if (!std::filesystem::is_regular_file(path, code))
+    throw DataError(path.string() + ": there is no such file");
   cv::Mat image;
   try {
     image = cv::imread(path.string(), flags);
@@ -31,8 +32,9 @@ cv::Mat read_depth_file(const std::filesystem::path& path) {
   const cv::Mat stored = read_file(path, cv::IMREAD_UNCHANGED);
   if (stored.type() == CV_16UC1) return decode_depth(stored);
   if (stored.type() != CV_32FC1) {
-    throw DataError(path.string() + ": is no depth map; expected one channel of 16-bit PNG in 1/256 m, or of 32-bit "
-                                    "TIFF or EXR in metres");
+    throw DataError(path.string() +
+                    ": is no depth map; expected one channel of 16-bit PNG in 1/256 m, or of 32-bit "
+                    "TIFF or EXR in metres");
   }
   const cv::Mat usable = (stored > 0) & (stored <= std::numeric_limits<float>::max());  // false for NaN
   cv::Mat depth_m = cv::Mat::zeros(stored.size(), CV_32FC1);

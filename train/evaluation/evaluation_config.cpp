@@ -47,7 +47,8 @@ void bind(Binder& b, EvaluationConfig& c) {
   b.field("windows_s", c.windows_s, "accumulation windows fed, from the image on", at_least(0));
   b.field("seed", c.seed, "of the random shares", at_least(0));
   b.field("threads", c.threads, "samples judged at once; 0: all cores", between(0, 1024));
-  b.field("picture_feeding", c.picture_feeding, "what the worst samples are chosen by, such as P=0.3 or \"0.3 s\"");
+  b.field("picture_feeding", c.picture_feeding,
+          "what the worst samples are chosen by, such as P=0.3 or \"0.3 s\"");
   b.section("regions", c.regions, "pixels that are judged apart");
   b.section("baselines", c.baselines, "methods without training");
   const std::vector<Feeding> feedings = c.feedings();
@@ -58,7 +59,8 @@ void bind(Binder& b, EvaluationConfig& c) {
           "expected a share (such as P=0.3) or window (0.3 s) that is in shares or windows_s");
 }
 
-std::vector<EvaluationItem> choose_items(const std::vector<SampleTime>& samples, const EvaluationConfig& config) {
+std::vector<EvaluationItem> choose_items(const std::vector<SampleTime>& samples,
+                                         const EvaluationConfig& config) {
   check_flights(config.flights, samples);
   std::vector<EvaluationItem> items;
   std::map<std::string, int> seen;
@@ -69,8 +71,9 @@ std::vector<EvaluationItem> choose_items(const std::vector<SampleTime>& samples,
     if (seen[flight]++ % config.every == 0) items.push_back({index, flight});
   }
   if (items.empty()) {
-    throw ConfigError("no sample is left to judge: `part` of the split has none in the chosen flights; name other "
-                      "flights, blocks or unknown_flights");
+    throw ConfigError(
+        "no sample is left to judge: `part` of the split has none in the chosen flights; name other "
+        "flights, blocks or unknown_flights");
   }
   return items;
 }

@@ -19,9 +19,9 @@ struct EvaluationConfig {
   std::vector<std::string> flights;  ///< empty: all
   SplitConfig split;
   EvaluatedPart part = EvaluatedPart::kAll;
-  int every = 1;                                                       ///< every n-th sample of a flight
-  std::vector<double> shares{0, 0.1, 0.3, 0.5, 1.0};                   ///< P
-  std::vector<double> windows_s{0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4};    ///< accumulation windows
+  int every = 1;                                                     ///< every n-th sample of a flight
+  std::vector<double> shares{0, 0.1, 0.3, 0.5, 1.0};                 ///< P
+  std::vector<double> windows_s{0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4};  ///< accumulation windows
   std::int64_t seed = 1;
   int threads = 0;                        ///< samples judged at once; 0: all cores
   std::string picture_feeding = "P=0.3";  ///< what the worst samples are chosen and drawn by
@@ -40,6 +40,7 @@ struct EvaluationItem {
 
 /// The samples that the configuration asks for. @param samples all of the data set, in its order
 /// @throws ConfigError if a named flight is not there or nothing is left
-std::vector<EvaluationItem> choose_items(const std::vector<SampleTime>& samples, const EvaluationConfig& config);
+std::vector<EvaluationItem> choose_items(const std::vector<SampleTime>& samples,
+                                         const EvaluationConfig& config);
 
 }  // namespace alight

@@ -103,7 +103,8 @@ void add(EvaluationReport& report, const EvaluationItem& item, const SamplePart&
       const CellPart& from = part.cells[m][f];
       EvaluationCell& to = report.cells[m][f];
       for (std::size_t i = 0; i < kRegions.size(); ++i) {
-        if (from.regions[i].pixels() + from.regions[i].unknown() > 0) to.regions[i].add(item.flight, from.regions[i]);
+        if (from.regions[i].pixels() + from.regions[i].unknown() > 0)
+          to.regions[i].add(item.flight, from.regions[i]);
       }
       if (from.similarity) to.similarity.add(item.flight, *from.similarity);
     }

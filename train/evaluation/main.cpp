@@ -4,13 +4,15 @@ namespace {
 
 void add_evaluate_options(CLI::App& app, alight::EvaluateOptions& options) {
   alight::add_config_options(app, options.config);
-  app.add_option("--checkpoint", options.checkpoints, "Trained network; repeat to compare; without: baselines alone")
+  app.add_option("--checkpoint", options.checkpoints,
+                 "Trained network; repeat to compare; without: baselines alone")
       ->allow_extra_args(false);
   app.add_option("-d,--data", options.data, "Data set of alight-dataset build");
   app.add_option("-o,--output", options.output, "Table to write: .md, .csv or .json");
   app.add_option("--flights", options.flights, "Only these flights, comma-separated")->delimiter(',');
-  app.add_option("--blocks", options.blocks,
-                 "Only these parts of every flight's duration, such as 0.4:0.6,0.8:0.9; in place of split and part")
+  app.add_option(
+         "--blocks", options.blocks,
+         "Only these parts of every flight's duration, such as 0.4:0.6,0.8:0.9; in place of split and part")
       ->delimiter(',');
   app.add_option("--every", options.every, "Every n-th sample of a flight")->check(CLI::PositiveNumber);
   app.add_option("--pictures", options.pictures,
@@ -32,7 +34,8 @@ void add_depth_options(CLI::App& app, alight::DepthOptions& options) {
   app.add_option("--rig", options.rig, "Rig file; two cameras suffice")->required();
   app.add_option("--left", options.left, "Rectified left image")->required();
   app.add_option("--right", options.right, "Rectified right image")->required();
-  app.add_option("--depth", options.depth, "Depth map to judge: 16-bit PNG in 1/256 m, 32-bit TIFF or EXR in metres")
+  app.add_option("--depth", options.depth,
+                 "Depth map to judge: 16-bit PNG in 1/256 m, 32-bit TIFF or EXR in metres")
       ->required();
   app.add_option("--sparse", options.sparse, "LiDAR depth, for sim_d");
   app.add_option("--truth", options.truth, "True depth, for RMSE, MAE, REL and delta");
@@ -42,7 +45,8 @@ void add_depth_options(CLI::App& app, alight::DepthOptions& options) {
   app.footer(
       "Examples:\n"
       "  alight-evaluate depth --rig rig.yaml --left l.png --right r.png --depth d.png\n"
-      "  alight-evaluate depth --rig configs/rigs/paper.yaml --centre-cropped --left data/demo/a/left/000000.png "
+      "  alight-evaluate depth --rig configs/rigs/paper.yaml --centre-cropped --left "
+      "data/demo/a/left/000000.png "
       "--right data/demo/a/right/000000.png --depth d.tiff --sparse data/demo/a/depth/000000.png --truth "
       "data/demo/a/dense/000000.png --config configs/infer/paper.yaml");
 }
@@ -56,7 +60,8 @@ int main(int argc, char** argv) {
   alight::EvaluateOptions evaluate;
   add_evaluate_options(app, evaluate);
   alight::DepthOptions depth;
-  CLI::App* depth_app = app.add_subcommand("depth", "Judge one depth map with the stereo pair that it belongs to");
+  CLI::App* depth_app =
+      app.add_subcommand("depth", "Judge one depth map with the stereo pair that it belongs to");
   add_depth_options(*depth_app, depth);
   return alight::run_tool(app, argc, argv, [&] {
     return depth_app->parsed() ? alight::run_depth(depth) : alight::run_evaluate(evaluate);

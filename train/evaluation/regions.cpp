@@ -71,7 +71,8 @@ const char* name(Region region) {
 void bind(Binder& b, RegionConfig& c) {
   b.field("lidar_half_fov_deg", c.lidar_half_fov_deg, "half the opening of the LiDAR's circle",
           between(0.1, 90));
-  b.field("edge_step_m", c.edge_step_m, "neighbours whose true depths differ by more are an edge", at_least(0));
+  b.field("edge_step_m", c.edge_step_m, "neighbours whose true depths differ by more are an edge",
+          at_least(0));
   b.field("edge_step_share", c.edge_step_share, "if they also differ by more than this share of the nearer",
           at_least(0));
   b.field("edge_distance_px", c.edge_distance_px, "how far from an edge is near", between(0, 100));
@@ -86,8 +87,9 @@ std::string describe(Region region, const RegionConfig& c) {
     case Region::kDense:
       return "every pixel with true depth (simulated flights)";
     case Region::kInsideFov:
-      return text("truth inside the LiDAR's field of view at the time of the image, %g deg around its boresight",
-                  c.lidar_half_fov_deg);
+      return text(
+          "truth inside the LiDAR's field of view at the time of the image, %g deg around its boresight",
+          c.lidar_half_fov_deg);
     case Region::kOutsideFov:
       return "truth outside the LiDAR's field of view at the time of the image";
     case Region::kNearEdges:
@@ -136,7 +138,8 @@ SampleRegions::SampleRegions(const cv::Mat& lidar_m, const cv::Mat& dense_m, con
   const std::optional<double> depth_m = median_m(truth_m_);
   if (!depth_m) return;
   band_ = band_of(*depth_m);
-  inside_ = lidar_fov_mask(rig.intrinsics, rig.T_camera_lidar, to_radians(config.lidar_half_fov_deg), *depth_m);
+  inside_ =
+      lidar_fov_mask(rig.intrinsics, rig.T_camera_lidar, to_radians(config.lidar_half_fov_deg), *depth_m);
 }
 
 std::optional<SampleRegions::Pixels> SampleRegions::pixels(Region region, const cv::Mat& fed_m) const {

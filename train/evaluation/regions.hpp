@@ -25,10 +25,9 @@ enum class Region {
   k20To30m,
   kAbove30m,
 };
-constexpr std::array<Region, 10> kRegions{Region::kAll,       Region::kHeldOut,    Region::kDense,
-                                          Region::kInsideFov, Region::kOutsideFov, Region::kNearEdges,
-                                          Region::kBelow10m,  Region::k10To20m,    Region::k20To30m,
-                                          Region::kAbove30m};
+constexpr std::array<Region, 10> kRegions{
+    Region::kAll,       Region::kHeldOut,  Region::kDense,   Region::kInsideFov, Region::kOutsideFov,
+    Region::kNearEdges, Region::kBelow10m, Region::k10To20m, Region::k20To30m,   Region::kAbove30m};
 /// Name for files, such as held_out.
 const char* name(Region region);
 

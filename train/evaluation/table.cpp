@@ -63,8 +63,8 @@ void add_lines(std::string& text, const std::string& cell_name, const std::strin
   const PixelErrors pooled = errors.pooled();
   for (const Metric metric : kMetrics) {
     const FlightMean mean = errors.mean(metric);
-    text += cell_name + region + "," + name(metric) + "," + number(pooled.value(metric)) + "," + number(mean.mean) +
-            "," + number(mean.standard_error) + "," + std::to_string(mean.flights) + "," +
+    text += cell_name + region + "," + name(metric) + "," + number(pooled.value(metric)) + "," +
+            number(mean.mean) + "," + number(mean.standard_error) + "," + std::to_string(mean.flights) + "," +
             std::to_string(pooled.pixels()) + "," + std::to_string(pooled.substituted()) + "," +
             std::to_string(pooled.unknown()) + "\n";
   }
@@ -74,7 +74,8 @@ void add_lines(std::string& text, const std::string& cell_name, const std::strin
 
 std::string to_csv(const EvaluationReport& report) {
   std::string text =
-      "method,feeding,region,metric,pooled,mean,standard_error,flights,pixels,substituted_pixels,unknown_pixels\n";
+      "method,feeding,region,metric,pooled,mean,standard_error,flights,pixels,substituted_pixels,unknown_"
+      "pixels\n";
   for (std::size_t m = 0; m < report.methods.size(); ++m) {
     for (std::size_t f = 0; f < report.feedings.size(); ++f) {
       const EvaluationCell& cell = report.cells[m][f];
@@ -84,8 +85,8 @@ std::string to_csv(const EvaluationReport& report) {
       }
       if (cell.similarity.samples() == 0) continue;
       const FlightMean mean = cell.similarity.mean();
-      text += cell_name + "right_image,ssim," + number(cell.similarity.pooled()) + "," + number(mean.mean) + "," +
-              number(mean.standard_error) + "," + std::to_string(mean.flights) + ",,,\n";
+      text += cell_name + "right_image,ssim," + number(cell.similarity.pooled()) + "," + number(mean.mean) +
+              "," + number(mean.standard_error) + "," + std::to_string(mean.flights) + ",,,\n";
     }
   }
   return text;

@@ -65,17 +65,19 @@ std::vector<Metric> metrics_of(Region region) {
 std::string region_text(const EvaluationReport& report, Region region) {
   std::string text = "## " + std::string(name(region)) + "\n\n" + describe(region, report.regions) + ".\n\n";
   for (const Metric metric : metrics_of(region)) {
-    text += grid(report, title(metric), metric == Metric::kDelta ? 2 : 1, false, [&](const EvaluationCell& cell) {
-      const FlightErrors& errors = cell.at(region);
-      return CellText{errors.mean(metric), errors.pooled().substituted() > 0};
-    });
+    text +=
+        grid(report, title(metric), metric == Metric::kDelta ? 2 : 1, false, [&](const EvaluationCell& cell) {
+          const FlightErrors& errors = cell.at(region);
+          return CellText{errors.mean(metric), errors.pooled().substituted() > 0};
+        });
   }
   return text;
 }
 
 bool has_similarity(const EvaluationReport& report) {
-  return !report.cells.empty() && std::any_of(report.cells[0].begin(), report.cells[0].end(),
-                                              [](const EvaluationCell& c) { return c.similarity.samples() > 0; });
+  return !report.cells.empty() &&
+         std::any_of(report.cells[0].begin(), report.cells[0].end(),
+                     [](const EvaluationCell& c) { return c.similarity.samples() > 0; });
 }
 
 }  // namespace
@@ -83,20 +85,23 @@ bool has_similarity(const EvaluationReport& report) {
 std::string to_markdown(const EvaluationReport& report) {
   std::string text = "# Depth completion: evaluation\n\n";
   for (const auto& [key, value] : report.about) text += "- " + key + ": " + value + "\n";
-  text += "- samples: " + std::to_string(report.first_method.size()) +
-          "\n\nColumns: P, a random share of the full window's points, and seconds, the points that came in that "
-          "time after the image. Cells: mean over flights ± its standard error over flights. `*`: the altitude "
-          "plane stands in for pixels that the method left unknown. Values pooled over all pixels, pixel counts "
-          "and every flight by itself: .csv and .json.\n\n";
+  text +=
+      "- samples: " + std::to_string(report.first_method.size()) +
+      "\n\nColumns: P, a random share of the full window's points, and seconds, the points that came in that "
+      "time after the image. Cells: mean over flights ± its standard error over flights. `*`: the altitude "
+      "plane stands in for pixels that the method left unknown. Values pooled over all pixels, pixel counts "
+      "and every flight by itself: .csv and .json.\n\n";
   for (const Region region : kRegions) {
     if (has(report, region)) text += region_text(report, region);
   }
   if (has_similarity(report)) {
-    text += "## right image\n\nMean over the samples of the structural similarity between the right image and its "
-            "reconstruction from the left one with the completed depth, over the pixels that both eyes see.\n\n" +
-            grid(report, "SSIM", 4, true, [](const EvaluationCell& cell) {
-              return CellText{cell.similarity.mean(), cell.at(Region::kAll).pooled().substituted() > 0};
-            });
+    text +=
+        "## right image\n\nMean over the samples of the structural similarity between the right image and "
+        "its "
+        "reconstruction from the left one with the completed depth, over the pixels that both eyes see.\n\n" +
+        grid(report, "SSIM", 4, true, [](const EvaluationCell& cell) {
+          return CellText{cell.similarity.mean(), cell.at(Region::kAll).pooled().substituted() > 0};
+        });
   }
   text.pop_back();
   return text;

@@ -91,8 +91,9 @@ cv::Mat draw_errors(const ErrorPicture& picture) {
                       error_panel(picture.predicted_m, picture.truth_m)});
 }
 
-void write_worst_samples(const EvaluationReport& report, const DepthMethod& first_method, SampleSource& source,
-                         const EvaluationConfig& config, int count, const std::filesystem::path& dir) {
+void write_worst_samples(const EvaluationReport& report, const DepthMethod& first_method,
+                         SampleSource& source, const EvaluationConfig& config, int count,
+                         const std::filesystem::path& dir) {
   std::vector<SampleError> worst;
   std::copy_if(report.first_method.begin(), report.first_method.end(), std::back_inserter(worst),
                [](const SampleError& error) { return std::isfinite(error.rmse_mm); });
