@@ -54,6 +54,7 @@ void add_depth_options(CLI::App& app, alight::DepthOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  alight::restart_with_short_spin(argv);
   CLI::App app{"Judges depth completion beside interpolation, and single depth maps by the stereo test",
                "alight-evaluate"};
   app.require_subcommand(0, 1)->fallthrough();  // -q and -v also after the subcommand
