@@ -33,6 +33,12 @@ double HeightTrack::at(std::int64_t t_ns) const {
   return before->height_m + share * (after->height_m - before->height_m);
 }
 
+double HeightTrack::at_or_latest(std::int64_t t_ns, std::int64_t max_age_ns) const {
+  const bool latest =
+      !samples_.empty() && samples_.back().t_ns < t_ns && t_ns - samples_.back().t_ns <= max_age_ns;
+  return latest ? samples_.back().height_m : at(t_ns);
+}
+
 void HeightTrack::forget_before(std::int64_t t_ns) {
   while (samples_.size() > 1 && samples_[1].t_ns <= t_ns) samples_.pop_front();
 }

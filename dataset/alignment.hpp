@@ -48,6 +48,9 @@ class HeightTrack {
   void add(const HeightSample& sample);
   /// NaN outside the samples and in gaps longer than a second.
   double at(std::int64_t t_ns) const;
+  /// The latest sample's height where that is no older than `max_age_ns`, else as at(): for whoever cannot wait for the
+  /// sample that follows.
+  double at_or_latest(std::int64_t t_ns, std::int64_t max_age_ns) const;
   void forget_before(std::int64_t t_ns);
 
  private:

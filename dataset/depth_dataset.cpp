@@ -141,6 +141,9 @@ DepthSample DepthDataset::get(std::size_t index) {
   out.offset_s = depth_to_tensor(offset_s);
   if (!sample.dense_m.empty()) out.dense = depth_to_tensor(sample.dense_m);
   out.intrinsics = torch::tensor({k.fx_px, k.fy_px, k.cx_px, k.cy_px}, torch::kFloat32);
+  const Eigen::Vector3f down =
+      (line.T_world_camera.linear().transpose() * -Eigen::Vector3d::UnitZ()).cast<float>();
+  out.down_camera = torch::tensor({down.x(), down.y(), down.z()});
   out.baseline_m = info_.rig.baseline_m;
   out.height_m = line.height_m;
   out.index = static_cast<std::int64_t>(index);

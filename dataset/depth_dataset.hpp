@@ -26,6 +26,8 @@ struct DepthSample {
       T_previous_camera;  ///< [4,4] float32, left camera now -> left camera of `previous`; identity if none
   torch::Tensor T_next_camera;  ///< [4,4] float32
   torch::Tensor intrinsics;     ///< [4] float32: fx fy cx cy in pixels
+  torch::Tensor
+      down_camera;  ///< [3] float32: the world's down in camera coordinates, unit length (the attitude)
   bool has_right = false;
   bool has_previous = false;
   bool has_next = false;

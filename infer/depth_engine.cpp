@@ -10,6 +10,7 @@ namespace alight {
 namespace {
 
 constexpr char kLogEnded[] = "the log ended";
+constexpr std::int64_t kMaxHeightAge_ns = 100'000'000;
 
 cv::Rect fitting_crop(cv::Size image, cv::Size wanted) {
   if (wanted.width > image.width || wanted.height > image.height) {
@@ -94,7 +95,10 @@ void DepthEngine::receive(const PositionSample& sample) {
   if (!poses_.add(sample)) ++dropped_["position out of order or not finite"];
 }
 
-void DepthEngine::receive(const HeightSample& sample) { saw(sample.t_ns); }
+void DepthEngine::receive(const HeightSample& sample) {
+  saw(sample.t_ns);
+  heights_.add(sample);
+}
 
 bool DepthEngine::lidar_silent() const { return to_seconds(*now_ns_ - lidar_ns_) > config_.lidar_timeout_s; }
 
@@ -150,16 +154,16 @@ void DepthEngine::open_images() {
 void DepthEngine::open(Entry& entry, const Eigen::Isometry3d& T_world_camera) {
   if (open_count() >= config_.max_open_images) return give_up(entry, "engine busy with earlier images");
   StageTimes stages_ms;
-  cv::Mat left;
-  cv::Mat right;
+  PredictorView view;
   {
     const StageTimer timer(stages_ms, "rectify");
-    left = rectifier_.rectify_left(entry.frame->left)(crop_).clone();
-    if (!entry.frame->right.empty()) right = rectifier_.rectify_right(entry.frame->right)(crop_).clone();
+    view.left = rectifier_.rectify_left(entry.frame->left)(crop_).clone();
+    if (!entry.frame->right.empty()) view.right = rectifier_.rectify_right(entry.frame->right)(crop_).clone();
   }
+  view.height_m = heights_.at_or_latest(entry.t_ns, kMaxHeightAge_ns);
   entry.frame.reset();
-  entry.task = std::make_unique<ImageTask>(config_.image, rig_, predictor_.get(), entry.t_ns, std::move(left),
-                                           std::move(right), T_world_camera, std::move(stages_ms));
+  entry.task = std::make_unique<ImageTask>(config_.image, rig_, predictor_.get(), entry.t_ns, std::move(view),
+                                           T_world_camera, std::move(stages_ms));
   if (config_.history_s > 0) {
     for (const auto& packet : accumulator_.before(entry.t_ns, config_.history_s, config_.history_s + 0.5)) {
       entry.task->offer(packet);
@@ -203,6 +207,7 @@ void DepthEngine::forget() {
   const std::int64_t before_ns = *now_ns_ - to_nanoseconds(keep_s);
   accumulator_.forget_before(before_ns);
   poses_.forget_before(before_ns);
+  heights_.forget_before(before_ns);
 }
 
 void DepthEngine::finish() {

@@ -106,6 +106,7 @@ class DepthEngine {
   Eigen::Isometry3d T_imu_lidar_;
   std::shared_ptr<DepthPredictor> predictor_;
   FlightTrajectory poses_;
+  HeightTrack heights_;
   Accumulator accumulator_;
   std::deque<LidarPacket> packets_;  // waiting for a pose
   std::deque<Entry> entries_;        // images without a delivered result, in order of arrival

@@ -57,17 +57,19 @@ void bind(Binder& b, ImageTaskConfig& c) {
 }
 
 ImageTask::ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, DepthPredictor* predictor,
-                     std::int64_t t_ns, cv::Mat left, cv::Mat right, const Eigen::Isometry3d& T_world_camera,
+                     std::int64_t t_ns, PredictorView view, const Eigen::Isometry3d& T_world_camera,
                      StageTimes stages_ms)
     : config_(config),
       rig_(rig),
       predictor_(predictor),
       T_camera_world_(T_world_camera.inverse()),
-      stereo_test_(left, right, rig),
+      stereo_test_(view.left, view.right, rig),
+      view_(std::move(view)),
       known_(SparseDepth::empty(rig.intrinsics.size())),
       fed_(SparseDepth::empty(rig.intrinsics.size())) {
   result_.t_ns = t_ns;
-  result_.left = std::move(left);
+  result_.left = view_.left;
+  view_.down_camera = T_world_camera.linear().transpose() * -Eigen::Vector3d::UnitZ();
   result_.T_world_camera = T_world_camera;
   result_.stages_ms = std::move(stages_ms);
 }
@@ -123,7 +125,7 @@ void ImageTask::feed(int packets) {
 void ImageTask::predict() {
   if (!encoded_) {
     const StageTimer timer(result_.stages_ms, "encode");
-    encoded_ = predictor_->encode(result_.left);
+    encoded_ = predictor_->encode(view_);
   }
   {
     const StageTimer timer(result_.stages_ms, "predict");

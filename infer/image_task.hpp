@@ -37,10 +37,10 @@ void bind(Binder& b, ImageTaskConfig& c);
 /// compared with the prediction (hold-out), then fed. Every packet costs its own projections and nothing else.
 class ImageTask {
  public:
-  /// @param left, right rectified, cropped; `right` empty for mono. @param predictor null: LiDAR alone, which waits for
+  /// @param view rectified, cropped; `right` empty for mono; down_camera is set from the pose. @param predictor null: LiDAR alone, which waits for
   /// max_accumulation_s and interpolates (paper 3.3, state 8)
   ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, DepthPredictor* predictor,
-            std::int64_t t_ns, cv::Mat left, cv::Mat right, const Eigen::Isometry3d& T_world_camera,
+            std::int64_t t_ns, PredictorView view, const Eigen::Isometry3d& T_world_camera,
             StageTimes stages_ms);
 
   /// Puts a packet at the end of the queue. Order of the calls is the order of feeding.
@@ -75,6 +75,7 @@ class ImageTask {
   DepthPredictor* predictor_;
   Eigen::Isometry3d T_camera_world_;
   StereoTest stereo_test_;
+  PredictorView view_;
   std::unique_ptr<EncodedImage> encoded_;
   std::deque<WorldPacketPtr> waiting_;
   SparseDepth known_;  // every point that came, fed or not: the reference of the stereo test

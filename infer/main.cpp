@@ -52,7 +52,7 @@ ReplayConfig resolve(const Options& options) {
 std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const ReplayConfig& config,
                                                const Rig& rig) {
   if (config.checkpoint) {
-    return make_network_predictor(*config.checkpoint, engine_intrinsics(config.engine, rig), config.threads);
+    return make_network_predictor(*config.checkpoint, engine_rig(config.engine, rig), config.threads);
   }
   if (options.lidar_only || options.benchmark) return nullptr;
   throw ConfigError("no network: name one with --checkpoint, or say --lidar-only to work without");

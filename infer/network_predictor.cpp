@@ -10,17 +10,21 @@
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/depth_map.hpp"
+#include "models/altitude_plane.hpp"
 #include "models/checkpoint.hpp"
+#include "models/depth_conversion.hpp"
 
 namespace alight {
 namespace {
 
 struct ImagePyramid : EncodedImage {
   std::vector<torch::Tensor> features;
+  torch::Tensor prior_m;  // [1,1,H,W], of the network's depth kind
 };
 
-/// [1,3,H,W] float32, RGB in 0..1, as the network was trained with
+/// [1,3,H,W] float32, RGB in 0..1, as the network was trained with; undefined for an empty image
 torch::Tensor image_tensor(const cv::Mat& image) {
+  if (image.empty()) return {};
   cv::Mat rgb;
   cv::cvtColor(image, rgb, image.channels() == 3 ? cv::COLOR_BGR2RGB : cv::COLOR_GRAY2RGB);
   const torch::Tensor bytes = torch::from_blob(rgb.data, {1, rgb.rows, rgb.cols, 3}, torch::kUInt8);
@@ -36,17 +40,20 @@ torch::Tensor depth_tensor(const cv::Mat& depth_m) {
 
 class NetworkPredictor : public DepthPredictor {
  public:
-  NetworkPredictor(LoadedNetwork network, const PinholeIntrinsics& intrinsics)
-      : network_(std::move(network)), intrinsics_(intrinsics) {
+  NetworkPredictor(LoadedNetwork network, const RectifiedRig& rig) : network_(std::move(network)), rig_(rig) {
     network_.net->eval();
     for (torch::Tensor& parameter : network_.net->parameters()) parameter.set_requires_grad(false);
   }
 
-  std::unique_ptr<EncodedImage> encode(const cv::Mat& image) override {
-    check_size(image);
+  std::unique_ptr<EncodedImage> encode(const PredictorView& view) override {
+    check_size(view.left);
+    if (!view.right.empty()) check_size(view.right);
     const torch::InferenceMode guard;
     auto pyramid = std::make_unique<ImagePyramid>();
-    pyramid->features = network_.net->encode_image(image_tensor(image));
+    pyramid->prior_m = prior(view);
+    pyramid->features = network_.net->encode_image(
+        {image_tensor(view.left), image_tensor(view.right), pyramid->prior_m,
+         torch::full({1}, rig_.intrinsics.fx_px * rig_.baseline_m, torch::kFloat32)});
     return pyramid;
   }
 
@@ -54,34 +61,43 @@ class NetworkPredictor : public DepthPredictor {
     check_size(sparse_m);
     const torch::InferenceMode guard;
     const bool perspective = network_.config.depth_kind == DepthKind::kPerspective;
-    const cv::Mat input_m = perspective ? plane_to_perspective(sparse_m, intrinsics_) : sparse_m;
+    const cv::Mat input_m = perspective ? plane_to_perspective(sparse_m, rig_.intrinsics) : sparse_m;
     const auto& pyramid = dynamic_cast<const ImagePyramid&>(image);
     const torch::Tensor predicted =
-        network_.net->decode(pyramid.features, network_.net->encode_depth(depth_tensor(input_m)))
+        network_.net
+            ->decode(pyramid.features, network_.net->encode_depth(depth_tensor(input_m), pyramid.prior_m))
             .to(torch::kFloat32)
             .contiguous();
     const cv::Mat depth_m = cv::Mat(sparse_m.size(), CV_32FC1, predicted.data_ptr<float>()).clone();
-    return perspective ? perspective_to_plane(depth_m, intrinsics_) : depth_m;
+    return perspective ? perspective_to_plane(depth_m, rig_.intrinsics) : depth_m;
   }
 
  private:
+  torch::Tensor prior(const PredictorView& view) const {
+    const PinholeIntrinsics& k = rig_.intrinsics;
+    const torch::Tensor intrinsics_px = torch::tensor({k.fx_px, k.fy_px, k.cx_px, k.cy_px}, torch::kFloat32);
+    const torch::Tensor plane_m = altitude_plane(view.height_m, view.down_camera, intrinsics_px, k.height_px,
+                                                 k.width_px, network_.config.max_depth_m);
+    return to_network_depth(plane_m, intrinsics_px.unsqueeze(0), network_.config.depth_kind);
+  }
+
   void check_size(const cv::Mat& map) const {
-    if (map.size() != intrinsics_.size()) {
+    if (map.size() != rig_.intrinsics.size()) {
       throw std::invalid_argument("NetworkPredictor: image and depth must have the camera's size");
     }
   }
 
   LoadedNetwork network_;
-  PinholeIntrinsics intrinsics_;
+  RectifiedRig rig_;
 };
 
 }  // namespace
 
 std::unique_ptr<DepthPredictor> make_network_predictor(const std::filesystem::path& checkpoint,
-                                                       const PinholeIntrinsics& intrinsics, int threads) {
+                                                       const RectifiedRig& rig, int threads) {
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   at::set_num_threads(threads > 0 ? threads : machine);
-  return std::make_unique<NetworkPredictor>(load_network(checkpoint), intrinsics);
+  return std::make_unique<NetworkPredictor>(load_network(checkpoint), rig);
 }
 
 }  // namespace alight

@@ -106,8 +106,8 @@ ReplaySummary replay(const ReplayConfig& config, const Rig& rig, const fs::path&
   return summary;
 }
 
-PinholeIntrinsics engine_intrinsics(const DepthEngineConfig& config, const Rig& rig) {
-  return DepthEngine(config, rig, nullptr).rig().intrinsics;
+RectifiedRig engine_rig(const DepthEngineConfig& config, const Rig& rig) {
+  return DepthEngine(config, rig, nullptr).rig();
 }
 
 }  // namespace alight

@@ -32,7 +32,7 @@ void bind(Binder& b, ReplayConfig& c);
 ReplaySummary replay(const ReplayConfig& config, const Rig& rig, const std::filesystem::path& log,
                      const std::filesystem::path& output, std::shared_ptr<DepthPredictor> predictor);
 
-/// Intrinsics of the images that the engine will show to a predictor.
-PinholeIntrinsics engine_intrinsics(const DepthEngineConfig& config, const Rig& rig);
+/// The rig of the images that the engine will show to a predictor.
+RectifiedRig engine_rig(const DepthEngineConfig& config, const Rig& rig);
 
 }  // namespace alight

@@ -21,14 +21,16 @@ SourceError source_error(const torch::Tensor& target, const torch::Tensor& depth
           view.valid & source.present.view({-1, 1, 1, 1})};
 }
 
+/// A sample's mean over those of its sources that it sees.
 torch::Tensor mean_over_sources(const std::vector<SourceError>& errors) {
   std::vector<torch::Tensor> means;
   std::vector<torch::Tensor> any;
   for (const SourceError& e : errors) {
-    means.push_back(masked_mean(e.error, e.counts));
-    any.push_back(e.counts.any());
+    const SampleMeans source = sample_means(e.error, e.counts);
+    means.push_back(source.mean);
+    any.push_back(source.any);
   }
-  return masked_mean(torch::stack(means), torch::stack(any));
+  return masked_mean(torch::stack(means, 1), torch::stack(any, 1));
 }
 
 torch::Tensor minimum_over_sources(const std::vector<SourceError>& errors) {

@@ -34,7 +34,7 @@ torch::Tensor photometric_error(const torch::Tensor& a, const torch::Tensor& b, 
 
 /// Photometric loss (paper 3.2, C_p; METHOD, "Losses"): the target image against its reconstructions from the
 /// sources, only where the warped pixel lands inside the source. `mean`: mean over a source's pixels, then
-/// over the sources that have any. No pixel at all: 0.
+/// over the sources that have any, then over the samples. No pixel at all: 0.
 /// @param target [B,3,H,W] in 0..1 @param depth_m [B,1,H,W] plane depth of the target, positive
 /// @param intrinsics_px [B,4] fx fy cx cy, of all views @returns scalar
 torch::Tensor photometric_loss(const torch::Tensor& target, const torch::Tensor& depth_m,

@@ -16,6 +16,12 @@ torch::Tensor right_from_left(const torch::Tensor& baseline_m) {
   return T;
 }
 
+torch::Tensor supervision(const LossInputs& inputs, LossTarget target) {
+  if (target == LossTarget::kGroundTruth) return inputs.ground_truth_m;
+  if (target == LossTarget::kInput) return inputs.input_m;
+  return torch::where(inputs.input_m > 0, torch::zeros_like(inputs.input_m), inputs.ground_truth_m);
+}
+
 }  // namespace
 
 void bind(Binder& b, TrainingLossConfig& c) {
@@ -23,10 +29,14 @@ void bind(Binder& b, TrainingLossConfig& c) {
   b.field("ratio_weight", c.ratio_weight, "weight of the depth ratio loss", at_least(0));
   b.field("photometric_weight", c.photometric_weight, "weight of the photometric loss", at_least(0));
   b.field("smoothness_weight", c.smoothness_weight, "weight of the smoothness loss", at_least(0));
-  b.choice("target", c.target, {{"gt", LossTarget::kGroundTruth}, {"input", LossTarget::kInput}},
-           "what supervises: the points of the full window, or only those fed");
-  b.choice("depth_error", c.depth_error, {{"squared", DepthError::kSquared}, {"log", DepthError::kLog}},
-           "of the depth loss: metres squared (the paper), or |ln(pred / gt)|");
+  b.choice(
+      "target", c.target,
+      {{"gt", LossTarget::kGroundTruth}, {"input", LossTarget::kInput}, {"held_out", LossTarget::kHeldOut}},
+      "what supervises: the points of the full window, only those fed, or only those not fed");
+  b.choice("depth_error", c.depth_error,
+           {{"squared", DepthError::kSquared}, {"log", DepthError::kLog}, {"rmse", DepthError::kRmse}},
+           "of the depth loss: metres squared (the paper), |ln(pred / gt)|, or the root of a sample's mean "
+           "square");
   b.section("photometric", c.photometric, "reconstruction of the image from nearby views");
   b.section("smoothness", c.smoothness, "derivatives of the prediction");
 }
@@ -53,8 +63,7 @@ torch::Tensor TrainingLoss::photometric(const LossInputs& inputs) const {
 }
 
 LossTerms TrainingLoss::operator()(const LossInputs& inputs) const {
-  const torch::Tensor& target =
-      config_.target == LossTarget::kGroundTruth ? inputs.ground_truth_m : inputs.input_m;
+  const torch::Tensor target = supervision(inputs, config_.target);
   const torch::Tensor none = torch::zeros({}, inputs.prediction_m.options());
   LossTerms terms{none, none, none, none, none};
   if (config_.depth_weight > 0) terms.depth = depth_loss(inputs.prediction_m, target, config_.depth_error);

@@ -11,9 +11,9 @@
 
 namespace alight {
 
-/// What the supervised terms compare with: the depth map of the full window, or only the points that were fed
-/// (the paper's self-supervised mode).
-enum class LossTarget { kGroundTruth, kInput };
+/// What the supervised terms compare with: the depth map of the full window; only the points that were fed (the
+/// paper's self-supervised mode); or only those that were not, so that copying the input is no way to a small loss.
+enum class LossTarget { kGroundTruth, kInput, kHeldOut };
 
 /// The defaults are the paper's losses and weights. A term of weight 0 is not computed.
 struct TrainingLossConfig {

@@ -72,9 +72,11 @@ class Reader {
       fail("not a checkpoint of Alight, or damaged");
     }
     const std::int64_t version = read(kVersionKey).toInt();
-    if (version > kCheckpointVersion) {
-      fail("checkpoint version " + std::to_string(version) + " is newer than this program's " +
-           std::to_string(kCheckpointVersion) + "; update Alight");
+    if (version != kCheckpointVersion) {
+      const bool newer = version > kCheckpointVersion;
+      fail("checkpoint version " + std::to_string(version) + " is " + (newer ? "newer" : "older") +
+           " than this program's " + std::to_string(kCheckpointVersion) +
+           (newer ? "; update Alight" : "; train the network again"));
     }
   }
 
@@ -97,7 +99,15 @@ class Reader {
   }
 
   CheckpointInfo info() {
-    return {read("epoch").toInt(), read("step").toInt(), read("train_config").toStringRef()};
+    CheckpointInfo info;
+    info.epoch = read("epoch").toInt();
+    info.step = read("step").toInt();
+    info.train_config = read("train_config").toStringRef();
+    info.epoch_step = read("epoch_step").toInt();
+    info.epoch_losses = read("epoch_losses").toDoubleVector();
+    info.best_score = read("best_score").toDouble();
+    info.best_epoch = read("best_epoch").toInt();
+    return info;
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw DataError(path_ + ": " + what); }
@@ -123,8 +133,8 @@ void assign(const Reader& reader, const TensorDict& file, const std::string& nam
   target.copy_(source);
 }
 
-void assign_weights(Reader& reader, DepthCompletionNet net) {
-  const TensorDict file = reader.tensors("weights");
+void assign_weights(Reader& reader, const char* key, DepthCompletionNet net) {
+  const TensorDict file = reader.tensors(key);
   for (const auto& item : net->named_parameters()) assign(reader, file, item.key(), item.value());
   for (const auto& item : net->named_buffers()) assign(reader, file, item.key(), item.value());
   const std::size_t expected = net->named_parameters().size() + net->named_buffers().size();
@@ -136,6 +146,7 @@ void assign_weights(Reader& reader, DepthCompletionNet net) {
 
 void assign_adam(Reader& reader, DepthCompletionNet net, torch::optim::Adam& adam) {
   const TensorDict file = reader.tensors("adam");
+  if (file.size() == 0) reader.fail("holds no training state; a run is resumed from its last.pt");
   for (const auto& item : net->named_parameters()) {
     if (!file.contains(item.key() + ".step")) continue;  // a parameter that never had a gradient
     auto state = std::make_unique<torch::optim::AdamParamState>();
@@ -151,15 +162,22 @@ void assign_adam(Reader& reader, DepthCompletionNet net, torch::optim::Adam& ada
 }  // namespace
 
 void save_checkpoint(const fs::path& path, DepthCompletionNet net, const CheckpointInfo& info,
-                     const torch::optim::Adam* adam) {
+                     const TrainingState& training) {
   torch::serialize::OutputArchive archive;
   archive.write(kVersionKey, c10::IValue(kCheckpointVersion));
   archive.write("model_config", c10::IValue(print_config(net->config())));
   archive.write("train_config", c10::IValue(info.train_config));
   archive.write("epoch", c10::IValue(info.epoch));
   archive.write("step", c10::IValue(info.step));
+  archive.write("epoch_step", c10::IValue(info.epoch_step));
+  archive.write("epoch_losses", c10::IValue(info.epoch_losses));
+  archive.write("best_score", c10::IValue(info.best_score));
+  archive.write("best_epoch", c10::IValue(info.best_epoch));
   archive.write("weights", c10::IValue(named_tensors(net)));
-  archive.write("adam", c10::IValue(adam != nullptr ? adam_state(net, *adam) : TensorDict()));
+  const bool average = training.net && training.net.ptr() != net.ptr();
+  archive.write("training_weights", c10::IValue(average ? named_tensors(training.net) : TensorDict()));
+  archive.write("adam", c10::IValue(training.adam != nullptr ? adam_state(training.net, *training.adam)
+                                                             : TensorDict()));
   // Through a stream, because a file's archive carries the file's name: equal networks are equal bytes.
   std::ostringstream bytes;
   archive.save_to(bytes);
@@ -176,17 +194,24 @@ LoadedNetwork load_network(const fs::path& path, torch::Device device) {
     reader.fail(std::string("its architecture is unknown to this program: ") + e.what());
   }
   loaded.net = DepthCompletionNet(loaded.config);
-  assign_weights(reader, loaded.net);
+  assign_weights(reader, "weights", loaded.net);
   loaded.info = reader.info();
   loaded.net->to(device);
   loaded.net->eval();
   return loaded;
 }
 
-CheckpointInfo load_checkpoint(const fs::path& path, DepthCompletionNet net, torch::optim::Adam* adam) {
+CheckpointInfo load_checkpoint(const fs::path& path, DepthCompletionNet net) {
   Reader reader(path);
-  assign_weights(reader, net);
-  if (adam != nullptr) assign_adam(reader, net, *adam);
+  assign_weights(reader, "weights", net);
+  return reader.info();
+}
+
+CheckpointInfo load_training(const fs::path& path, DepthCompletionNet net, const TrainingState& training) {
+  Reader reader(path);
+  assign_weights(reader, "weights", net);
+  if (training.net.ptr() != net.ptr()) assign_weights(reader, "training_weights", training.net);
+  assign_adam(reader, training.net, *training.adam);
   return reader.info();
 }
 

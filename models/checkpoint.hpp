@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <torch/torch.h>
 
@@ -10,14 +12,18 @@
 
 namespace alight {
 
-/// Version of the file format that this program writes; older ones are read, newer ones refused.
-constexpr std::int64_t kCheckpointVersion = 1;
+/// Version of the file format that this program writes and reads. 1 had networks without a prior.
+constexpr std::int64_t kCheckpointVersion = 2;
 
 /// What a checkpoint carries besides the network.
 struct CheckpointInfo {
-  std::int64_t epoch = 0;    ///< finished epochs
-  std::int64_t step = 0;     ///< finished optimizer steps
-  std::string train_config;  ///< resolved YAML of the training run, empty if unknown
+  std::int64_t epoch = 0;            ///< finished epochs
+  std::int64_t step = 0;             ///< finished optimizer steps
+  std::string train_config;          ///< resolved YAML of the training run, empty if unknown
+  std::int64_t epoch_step = 0;       ///< steps of the epoch that is not finished
+  std::vector<double> epoch_losses;  ///< sums over the batches of the epoch that is not finished
+  double best_score = std::numeric_limits<double>::infinity();  ///< of the validation so far
+  std::int64_t best_epoch = 0;                                  ///< 0: none yet
 };
 
 /// A network read from disk, in eval mode.
@@ -27,22 +33,32 @@ struct LoadedNetwork {
   CheckpointInfo info;
 };
 
-/// Writes one file: format version, architecture (YAML), weights and buffers by name, `info`, and the state
-/// of `adam` where given. The file appears whole or not at all (temporary name, then rename).
-/// @throws DataError if it cannot be written
+/// What a run needs to go on, besides the network that flies.
+struct TrainingState {
+  DepthCompletionNet net{
+      nullptr};  ///< the network that learns: not the one that flies, where that is an average
+  torch::optim::Adam* adam = nullptr;  ///< optimises net's parameters
+};
+
+/// Writes one file: format version, architecture (YAML), weights and buffers by name, `info`, and the training state
+/// where given. The file appears whole or not at all (temporary name, then rename).
+/// @param net the one that flies @throws DataError if it cannot be written
 void save_checkpoint(const std::filesystem::path& path, DepthCompletionNet net,
-                     const CheckpointInfo& info = {}, const torch::optim::Adam* adam = nullptr);
+                     const CheckpointInfo& info = {}, const TrainingState& training = {});
 
 /// Reads a network; the architecture comes from the file.
 /// @throws DataError: missing file, no checkpoint, newer version, tensors that do not fit the stated
 /// architecture
 LoadedNetwork load_network(const std::filesystem::path& path, torch::Device device = torch::kCPU);
 
-/// Reads weights, and the optimizer's state where `adam` is given, into a network that exists (its parameters
-/// must be those that `adam` optimises).
+/// Reads weights into a network that exists.
 /// @throws DataError as load_network, and if the network is another one: names the first tensor that differs
 /// and both shapes
-CheckpointInfo load_checkpoint(const std::filesystem::path& path, DepthCompletionNet net,
-                               torch::optim::Adam* adam = nullptr);
+CheckpointInfo load_checkpoint(const std::filesystem::path& path, DepthCompletionNet net);
+
+/// Reads back all that save_checkpoint wrote of a run: `net` flies, training.net learns.
+/// @throws DataError as load_checkpoint, and if the file holds no training state
+CheckpointInfo load_training(const std::filesystem::path& path, DepthCompletionNet net,
+                             const TrainingState& training);
 
 }  // namespace alight

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "models/sparse_fill.hpp"
+#include "models/stereo_cue.hpp"
 
 namespace alight {
 namespace {
@@ -12,11 +13,20 @@ namespace {
 namespace F = torch::nn::functional;
 constexpr std::size_t kStages = 4;
 constexpr std::size_t kDecoderLevels = 5;
-// Of the logarithmic range: with 0.5..150 m the fill is corrected by up to a third.
-constexpr double kLargestResidual = 0.05;
+// Natural logarithms: a roof at a seventh of the flight's height is as far as the prior is corrected.
+constexpr double kLargestPriorCorrection = 2.0;
+constexpr double kLargestFillCorrection = 0.5;
+// Channels of the `filled` depth input.
+constexpr std::int64_t kValid = 1;
+constexpr std::int64_t kFill = 2;
+constexpr std::int64_t kPrior = 4;
 
 int depth_channels(DepthInput input) {
-  return input == DepthInput::kRaw ? 1 : input == DepthInput::kMasked ? 2 : 4;
+  return input == DepthInput::kRaw ? 1 : input == DepthInput::kMasked ? 2 : 5;
+}
+
+int image_channels(const DepthCompletionConfig& c) {
+  return 3 + (c.stereo ? static_cast<int>(kStereoCueChannels) : 0);
 }
 
 bool all_positive(const std::vector<int>& widths) {
@@ -39,6 +49,14 @@ std::string mistake(const DepthCompletionConfig& c) {
   if (c.head == Head::kGated && c.depth_input != DepthInput::kFilled) {
     return "head: direct, or depth_input: filled, because the gate mixes with the fill";
   }
+  if (c.prior == Prior::kAltitude && c.head != Head::kGated) {
+    return "prior: constant, or head: gated, because only the gated head corrects a prior";
+  }
+  if (c.stereo && (c.prior != Prior::kAltitude || c.depth_kind != DepthKind::kPlane)) {
+    return "stereo: false, or prior: altitude and depth_kind: plane, because the right image is compared at "
+           "the prior";
+  }
+  if (c.detail_width < 0) return "detail_width: 0 or more";
   return {};
 }
 
@@ -64,10 +82,12 @@ void check_shape(const torch::Tensor& x, std::int64_t channels, const char* what
                               " must be a floating point tensor");
 }
 
-/// Where a depth lies between the limits, 0..1, in equal ratios.
-torch::Tensor to_log_share(const torch::Tensor& depth_m, const DepthCompletionConfig& c) {
-  return (depth_m.clamp(c.min_depth_m, c.max_depth_m) / c.min_depth_m).log() /
-         std::log(c.max_depth_m / c.min_depth_m);
+/// The prior where there is one, depth_scale_m elsewhere. @param like [B,1,H,W]
+torch::Tensor known_prior(const torch::Tensor& prior_m, const torch::Tensor& like,
+                          const DepthCompletionConfig& c) {
+  const torch::Tensor scale = torch::full_like(like, c.depth_scale_m);
+  if (c.prior == Prior::kConstant || !prior_m.defined()) return scale;
+  return torch::where(prior_m > 0, prior_m.clamp(c.min_depth_m, c.max_depth_m), scale);
 }
 
 }  // namespace
@@ -87,7 +107,13 @@ void bind(Binder& b, DepthCompletionConfig& c) {
            {{"raw", DepthInput::kRaw}, {"masked", DepthInput::kMasked}, {"filled", DepthInput::kFilled}},
            "channels of the depth branch: depth; and validity; and a fill of the holes");
   b.choice("head", c.head, {{"direct", Head::kDirect}, {"gated", Head::kGated}},
-           "last layer: depth, or a gated mix of depth and the corrected fill");
+           "last layer: depth, or a gated mix of the corrected prior and the corrected fill");
+  b.choice("prior", c.prior, {{"constant", Prior::kConstant}, {"altitude", Prior::kAltitude}},
+           "depth before any point: depth_scale_m, or level ground at the vehicle's height");
+  b.field("stereo", c.stereo, "the image branch sees the parallax that the right eye leaves over the prior");
+  b.field("detail_width", c.detail_width, "channels of a full-resolution layer on the inputs; 0: none",
+          between(0, 1024));
+  b.field("fill_smoothing", c.fill_smoothing, "smoothing passes at every level of the fill", between(0, 100));
   b.field("depth_scale_m", c.depth_scale_m, "input depth is divided by this", positive());
   b.field("min_depth_m", c.min_depth_m, "smallest depth that can be predicted", positive());
   b.field("max_depth_m", c.max_depth_m, "largest depth that can be predicted", positive());
@@ -104,8 +130,8 @@ DepthCompletionNetImpl::DepthCompletionNetImpl(const DepthCompletionConfig& conf
     throw std::invalid_argument("DepthCompletionNet: expected " + wrong);
   }
   const Normalization normalization = config.normalization;
-  image_encoder_ =
-      register_module("image_encoder", ResnetEncoder(3, config.image_widths, config.stem, normalization));
+  image_encoder_ = register_module("image_encoder", ResnetEncoder(image_channels(config), config.image_widths,
+                                                                  config.stem, normalization));
   depth_encoder_ = register_module(
       "depth_encoder",
       ResnetEncoder(depth_channels(config.depth_input), config.depth_widths, config.stem, normalization));
@@ -121,6 +147,12 @@ DepthCompletionNetImpl::DepthCompletionNetImpl(const DepthCompletionConfig& conf
         register_module(name, conv_block(below + skips[i], config.decoder_widths[i], 3, 1, normalization)));
     below = config.decoder_widths[i];
   }
+  if (config.detail_width > 0) {
+    detail_ = register_module("detail",
+                              conv_block(below + image_channels(config) + depth_channels(config.depth_input),
+                                         config.detail_width, 3, 1, normalization));
+    below = config.detail_width;
+  }
   const int outputs = config.head == Head::kGated ? 3 : 1;
   head_ = register_module("head", torch::nn::Conv2d(torch::nn::Conv2dOptions(below, outputs, 3).padding(1)));
   torch::NoGradGuard no_grad;
@@ -128,21 +160,43 @@ DepthCompletionNetImpl::DepthCompletionNetImpl(const DepthCompletionConfig& conf
   head_->bias.zero_();
 }
 
-std::vector<torch::Tensor> DepthCompletionNetImpl::encode_image(const torch::Tensor& image) {
-  check_shape(image, 3, "image [B,3,H,W]");
-  return image_encoder_->forward(pad(image, encoder_stride(config_.stem), true));
+torch::Tensor DepthCompletionNetImpl::image_input(const SceneView& view) const {
+  check_shape(view.left, 3, "left [B,3,H,W]");
+  if (!config_.stereo) return view.left;
+  const torch::Tensor prior_m =
+      view.prior_m.defined() ? view.prior_m : torch::zeros_like(view.left.narrow(1, 0, 1));
+  const torch::Tensor right = view.right.defined() ? view.right : torch::zeros_like(view.left);
+  const torch::Tensor focal_baseline_px_m = view.focal_baseline_px_m.defined()
+                                                ? view.focal_baseline_px_m
+                                                : torch::zeros({view.left.size(0)}, view.left.options());
+  return torch::cat({view.left, stereo_cue(view.left, right, prior_m, focal_baseline_px_m)}, 1);
 }
 
-std::vector<torch::Tensor> DepthCompletionNetImpl::encode_depth(const torch::Tensor& sparse_m) {
+torch::Tensor DepthCompletionNetImpl::depth_input(const torch::Tensor& sparse_m,
+                                                  const torch::Tensor& prior_m) const {
   check_shape(sparse_m, 1, "sparse_m [B,1,H,W]");
-  std::vector<torch::Tensor> channels{sparse_m / config_.depth_scale_m};
-  if (config_.depth_input != DepthInput::kRaw) channels.push_back((sparse_m > 0).to(sparse_m.dtype()));
-  if (config_.depth_input == DepthInput::kFilled) {
-    const SparseFill fill = fill_pyramid(to_log_share(sparse_m, config_), channels[1]);
-    channels.push_back(fill.value);
-    channels.push_back(fill.coarseness);
+  if (config_.depth_input == DepthInput::kRaw) return sparse_m / config_.depth_scale_m;
+  const torch::Tensor valid = (sparse_m > 0).to(sparse_m.dtype());
+  if (config_.depth_input == DepthInput::kMasked)
+    return torch::cat({sparse_m / config_.depth_scale_m, valid}, 1);
+  const torch::Tensor prior = known_prior(prior_m, sparse_m, config_);
+  const torch::Tensor relative =
+      (sparse_m.clamp(config_.min_depth_m, config_.max_depth_m) / prior).log() * valid;
+  const SparseFill fill = fill_pyramid(relative, valid, config_.fill_smoothing);
+  return torch::cat({relative, valid, fill.value, fill.coarseness, (prior / config_.depth_scale_m).log()}, 1);
+}
+
+std::vector<torch::Tensor> DepthCompletionNetImpl::encode_image(const SceneView& view) {
+  std::vector<torch::Tensor> pyramid{image_input(view)};  // [B,C,H,W]
+  for (torch::Tensor& map : image_encoder_->forward(pad(pyramid[0], encoder_stride(config_.stem), true))) {
+    pyramid.push_back(std::move(map));
   }
-  std::vector<torch::Tensor> pyramid{torch::cat(channels, 1)};  // [B,C,H,W]
+  return pyramid;
+}
+
+std::vector<torch::Tensor> DepthCompletionNetImpl::encode_depth(const torch::Tensor& sparse_m,
+                                                                const torch::Tensor& prior_m) {
+  std::vector<torch::Tensor> pyramid{depth_input(sparse_m, prior_m)};  // [B,C,H,W]
   for (torch::Tensor& map : depth_encoder_->forward(pad(pyramid[0], encoder_stride(config_.stem), false))) {
     pyramid.push_back(std::move(map));
   }
@@ -151,13 +205,13 @@ std::vector<torch::Tensor> DepthCompletionNetImpl::encode_depth(const torch::Ten
 
 torch::Tensor DepthCompletionNetImpl::decode(const std::vector<torch::Tensor>& image_pyramid,
                                              const std::vector<torch::Tensor>& depth_pyramid) {
-  if (image_pyramid.size() != kDecoderLevels || depth_pyramid.size() != kDecoderLevels + 1 ||
-      image_pyramid[0].sizes().slice(2) != depth_pyramid[1].sizes().slice(2)) {
+  if (image_pyramid.size() != kDecoderLevels + 1 || depth_pyramid.size() != kDecoderLevels + 1 ||
+      image_pyramid[0].sizes().slice(2) != depth_pyramid[0].sizes().slice(2)) {
     throw std::invalid_argument(
         "DepthCompletionNet: decode needs the pyramids of images and depths of one size");
   }
   const auto fused = [&](std::size_t level) {
-    const torch::Tensor& image = image_pyramid[level];
+    const torch::Tensor& image = image_pyramid[level + 1];
     const torch::Tensor& depth = depth_pyramid[level + 1];
     return config_.fusion == Fusion::kSum ? image + depth : torch::cat({image, depth}, 1);
   };
@@ -168,26 +222,32 @@ torch::Tensor DepthCompletionNetImpl::decode(const std::vector<torch::Tensor>& i
   }
   const std::int64_t full = config_.stem == Stem::kDownsample ? 2 : 1;
   x = decoder_.back()->forward(enlarge_to(x, x.size(2) * full, x.size(3) * full));  // [B,d4,H,W], padded
-  const torch::Tensor raw = head_->forward(x);
-  return to_depth(raw.narrow(2, 0, depth_pyramid[0].size(2)).narrow(3, 0, depth_pyramid[0].size(3)),
-                  depth_pyramid[0]);
+  x = x.narrow(2, 0, depth_pyramid[0].size(2)).narrow(3, 0, depth_pyramid[0].size(3));
+  if (detail_) {
+    x = detail_->forward(torch::cat({x, image_pyramid[0].to(x.dtype()), depth_pyramid[0].to(x.dtype())}, 1));
+  }
+  return to_depth(head_->forward(x).to(torch::kFloat32), depth_pyramid[0]);
 }
 
 torch::Tensor DepthCompletionNetImpl::to_depth(const torch::Tensor& raw,
                                                const torch::Tensor& depth_input) const {
-  torch::Tensor share = torch::sigmoid(raw.narrow(1, 0, 1));
-  if (config_.head == Head::kGated) {
-    const torch::Tensor any = depth_input.narrow(1, 1, 1).amax({2, 3}, /*keepdim=*/true);  // [B,1,1,1] 0 or 1
-    const torch::Tensor gate = torch::sigmoid(raw.narrow(1, 1, 1)) * any;
-    const torch::Tensor residual = kLargestResidual * torch::tanh(raw.narrow(1, 2, 1));
-    const torch::Tensor corrected = (depth_input.narrow(1, 2, 1) + residual).clamp(0, 1);
-    share = share + gate * (corrected - share);
+  if (config_.head == Head::kDirect) {
+    return config_.min_depth_m *
+           torch::exp(torch::sigmoid(raw) * std::log(config_.max_depth_m / config_.min_depth_m));
   }
-  return config_.min_depth_m * torch::exp(share * std::log(config_.max_depth_m / config_.min_depth_m));
+  const torch::Tensor any =
+      depth_input.narrow(1, kValid, 1).amax({2, 3}, /*keepdim=*/true);  // [B,1,1,1] 0 or 1
+  const torch::Tensor gate = torch::sigmoid(raw.narrow(1, 1, 1)) * any;
+  const torch::Tensor from_prior = kLargestPriorCorrection * torch::tanh(raw.narrow(1, 0, 1));
+  const torch::Tensor from_fill =
+      depth_input.narrow(1, kFill, 1) + kLargestFillCorrection * torch::tanh(raw.narrow(1, 2, 1));
+  const torch::Tensor relative = from_prior + gate * (from_fill - from_prior);
+  return (config_.depth_scale_m * torch::exp(depth_input.narrow(1, kPrior, 1) + relative))
+      .clamp(config_.min_depth_m, config_.max_depth_m);
 }
 
-torch::Tensor DepthCompletionNetImpl::forward(const torch::Tensor& image, const torch::Tensor& sparse_m) {
-  return decode(encode_image(image), encode_depth(sparse_m));
+torch::Tensor DepthCompletionNetImpl::forward(const SceneView& view, const torch::Tensor& sparse_m) {
+  return decode(encode_image(view), encode_depth(sparse_m, view.prior_m));
 }
 
 }  // namespace alight

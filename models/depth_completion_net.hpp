@@ -9,6 +9,7 @@
 #include "configs/config_reader.hpp"
 #include "geometry/depth_map.hpp"
 #include "models/resnet_encoder.hpp"
+#include "models/scene_view.hpp"
 
 namespace alight {
 
@@ -16,14 +17,19 @@ namespace alight {
 enum class Fusion { kConcatenate, kSum };
 
 /// What the depth branch sees. `raw`: one channel, depth / depth_scale_m, 0 where missing (the paper).
-/// `masked`: that and a validity channel. `filled`: those two, a fill of the holes (models/sparse_fill.hpp)
-/// and the coarseness of the fill.
+/// `masked`: that and a validity channel. `filled`: everything relative to the prior, so that the flight's height
+/// cancels: ln(depth / prior), validity, ln(fill / prior) of the holes' fill (models/sparse_fill.hpp), the fill's
+/// coarseness, and ln(prior / depth_scale_m).
 enum class DepthInput { kRaw, kMasked, kFilled };
 
-/// What the decoder's last layer means. `direct`: the depth (the paper). `gated`: a depth, a correction of the
-/// fill of the sparse input, and a gate that mixes the two, so that interpolation need not be learned (METHOD,
-/// "The opponent").
+/// What the decoder's last layer means. `direct`: the depth (the paper). `gated`: a correction of the prior, a
+/// correction of the fill of the sparse input, and a gate that mixes the two, so that neither the flight's height nor
+/// interpolation need be learned (METHOD, "The opponent").
 enum class Head { kDirect, kGated };
+
+/// What depth is before any point has come. `constant`: depth_scale_m. `altitude`: level ground at the height that the
+/// vehicle reports; depth_scale_m where it reports none.
+enum class Prior { kConstant, kAltitude };
 
 /// Architecture of DepthCompletionNet. All of it is stored in a checkpoint.
 struct DepthCompletionConfig {
@@ -35,6 +41,10 @@ struct DepthCompletionConfig {
   std::vector<int> decoder_widths{128, 96, 64, 32, 16};
   DepthInput depth_input = DepthInput::kFilled;
   Head head = Head::kGated;
+  Prior prior = Prior::kConstant;
+  bool stereo = false;     ///< the image branch also sees what the right eye says (models/stereo_cue.hpp)
+  int detail_width = 0;    ///< channels of a full-resolution layer on the inputs themselves; 0: none
+  int fill_smoothing = 0;  ///< see fill_pyramid
   double depth_scale_m = 20.0;
   double min_depth_m = 0.5;
   double max_depth_m = 150.0;
@@ -46,8 +56,8 @@ void bind(Binder& b, DepthCompletionConfig& c);
 /// encoded separately, so that an image is encoded once and only the depth branch and the decoder run again
 /// as points arrive:
 ///
-///     const auto image_pyramid = net->encode_image(image);
-///     for (...) depth_m = net->decode(image_pyramid, net->encode_depth(sparse_m));
+///     const auto image_pyramid = net->encode_image(view);
+///     for (...) depth_m = net->decode(image_pyramid, net->encode_depth(sparse_m, view.prior_m));
 ///
 /// Any height and width: the input is padded to the encoder's stride inside and the output is cropped back.
 /// Depth is of `config().depth_kind`, input and output alike; models/depth_conversion.hpp converts.
@@ -57,32 +67,35 @@ class DepthCompletionNetImpl : public torch::nn::Module {
   /// ConfigError)
   explicit DepthCompletionNetImpl(const DepthCompletionConfig& config = {});
 
-  /// @param image [B,3,H,W] float32, RGB in 0..1
-  /// @returns features, fine to coarse; meant for decode() alone
-  std::vector<torch::Tensor> encode_image(const torch::Tensor& image);
-
-  /// @param sparse_m [B,1,H,W] float32, metres, 0 = missing (all zero: no LiDAR)
   /// @returns [0] the normalised input [B,C,H,W], then features, fine to coarse; meant for decode() alone
-  std::vector<torch::Tensor> encode_depth(const torch::Tensor& sparse_m);
+  std::vector<torch::Tensor> encode_image(const SceneView& view);
 
-  /// @returns [B,1,H,W] float32, metres, within [min_depth_m, max_depth_m], no holes. The layer's output x
-  /// becomes min * (max / min)^v with v = sigmoid(x): equal steps are equal ratios of depth. Gated:
-  /// v = (1 - g) sigmoid(x) + g (v_fill + r), |r| <= 0.05, and g = 0 where the input has no point at all.
+  /// @param sparse_m [B,1,H,W] float32, metres, 0 = missing (all zero: no LiDAR) @param prior_m as SceneView's
+  /// @returns [0] the normalised input [B,C,H,W], then features, fine to coarse; meant for decode() alone
+  std::vector<torch::Tensor> encode_depth(const torch::Tensor& sparse_m, const torch::Tensor& prior_m = {});
+
+  /// @returns [B,1,H,W] float32, metres, within [min_depth_m, max_depth_m], no holes. Direct: the layer's output x
+  /// becomes min * (max / min)^sigmoid(x), so that equal steps are equal ratios of depth. Gated:
+  /// ln(depth) = (1 - g) (ln(prior) + r) + g (ln(fill) + s), |r| <= 2, |s| <= 0.5, and g = 0 where the input has no
+  /// point at all.
   torch::Tensor decode(const std::vector<torch::Tensor>& image_pyramid,
                        const std::vector<torch::Tensor>& depth_pyramid);
 
-  /// decode(encode_image(image), encode_depth(sparse_m))
-  torch::Tensor forward(const torch::Tensor& image, const torch::Tensor& sparse_m);
+  /// decode(encode_image(view), encode_depth(sparse_m, view.prior_m))
+  torch::Tensor forward(const SceneView& view, const torch::Tensor& sparse_m);
 
   const DepthCompletionConfig& config() const { return config_; }
 
  private:
+  torch::Tensor image_input(const SceneView& view) const;
+  torch::Tensor depth_input(const torch::Tensor& sparse_m, const torch::Tensor& prior_m) const;
   torch::Tensor to_depth(const torch::Tensor& raw, const torch::Tensor& depth_input) const;
 
   DepthCompletionConfig config_;
   ResnetEncoder image_encoder_{nullptr};
   ResnetEncoder depth_encoder_{nullptr};
   std::vector<torch::nn::Sequential> decoder_;
+  torch::nn::Sequential detail_{nullptr};  // null without detail_width
   torch::nn::Conv2d head_{nullptr};
 };
 TORCH_MODULE(DepthCompletionNet);

@@ -56,7 +56,8 @@ std::vector<LayerCost> measure_layers(DepthCompletionNet net, std::int64_t heigh
       at::RecordFunctionCallback(on_operator_start, on_operator_end).needsInputs(true).needsOutputs(true));
   recording = &current;
   current.part = "image_encoder";
-  const auto image_pyramid = net->encode_image(torch::zeros({1, 3, height_px, width_px}));
+  const auto image_pyramid =
+      net->encode_image(SceneView{torch::zeros({1, 3, height_px, width_px}), {}, {}, {}});
   current.part = "depth_encoder";
   const auto depth_pyramid = net->encode_depth(torch::zeros({1, 1, height_px, width_px}));
   current.part = "decoder";

@@ -15,6 +15,9 @@ struct SparseFill {
 /// around it, smoothly enlarged. Costs a few pooling passes, unlike a nearest-neighbour search, and stays on
 /// the device.
 /// @param value [B,1,H,W], any number where not valid @param valid [B,1,H,W], 1 or 0, same dtype
-SparseFill fill_pyramid(const torch::Tensor& value, const torch::Tensor& valid);
+/// @param smoothing passes at every level in which a hole becomes the mean of its 3x3 neighbourhood while what is
+/// known stays: a multigrid step towards the membrane that is stretched over the points, which is about as near to the
+/// surface as linear interpolation. 0: none, steps of the coarser level's pixels stay visible.
+SparseFill fill_pyramid(const torch::Tensor& value, const torch::Tensor& valid, int smoothing = 0);
 
 }  // namespace alight

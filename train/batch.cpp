@@ -42,12 +42,14 @@ Batch allocate(std::int64_t count, std::int64_t height_px, std::int64_t width_px
   const auto images = [&] { return torch::zeros({count, 3, height_px, width_px}); };
   const auto maps = [&] { return torch::zeros({count, 1, height_px, width_px}); };
   const auto flags = [&] { return torch::zeros({count}, torch::kBool); };
-  Batch batch{images(), images(), images(), images(), maps(), maps(), flags(),
-              flags(),  flags(),  {},       {},       {},     {}};
+  Batch batch{images(), images(), images(), images(), maps(), maps(), flags(), flags(),
+              flags(),  {},       {},       {},       {},     {},     {},      {}};
   batch.T_previous_camera = torch::zeros({count, 4, 4});
   batch.T_next_camera = torch::zeros({count, 4, 4});
   batch.intrinsics_px = torch::zeros({count, 4});
   batch.baseline_m = torch::zeros({count});
+  batch.height_m = torch::zeros({count});
+  batch.down_camera = torch::zeros({count, 3});
   return batch;
 }
 
@@ -69,9 +71,26 @@ void fill(Batch& batch, std::size_t i, const CompactSample& sample, const Window
   batch.intrinsics_px.data_ptr<float>()[4 * i + 2] -= static_cast<float>(window.origin.column);
   batch.intrinsics_px.data_ptr<float>()[4 * i + 3] -= static_cast<float>(window.origin.row);
   batch.baseline_m.data_ptr<float>()[i] = static_cast<float>(rest.baseline_m);
+  batch.height_m.data_ptr<float>()[i] = static_cast<float>(rest.height_m);
+  batch.down_camera[at].copy_(rest.down_camera);
+  batch.indices.push_back(rest.index);
 }
 
 }  // namespace
+
+Batch Batch::to(torch::Device device, torch::MemoryFormat format) const {
+  Batch moved = *this;
+  for (torch::Tensor* image : {&moved.left, &moved.right, &moved.previous, &moved.next}) {
+    *image = image->to(device).contiguous(format);
+  }
+  for (torch::Tensor* tensor :
+       {&moved.sparse_m, &moved.offset_s, &moved.has_right, &moved.has_previous, &moved.has_next,
+        &moved.T_previous_camera, &moved.T_next_camera, &moved.intrinsics_px, &moved.baseline_m,
+        &moved.height_m, &moved.down_camera}) {
+    *tensor = tensor->to(device);
+  }
+  return moved;
+}
 
 Batch stack(const std::vector<std::shared_ptr<const CompactSample>>& samples,
             const std::vector<CropOrigin>& origins, std::int64_t height_px, std::int64_t width_px) {

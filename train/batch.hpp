@@ -20,6 +20,12 @@ struct Batch {
   torch::Tensor T_previous_camera, T_next_camera;   ///< [B,4,4]
   torch::Tensor intrinsics_px;                      ///< [B,4] fx fy cx cy of the cut-out
   torch::Tensor baseline_m;                         ///< [B]
+  torch::Tensor height_m;                           ///< [B] above take-off; NaN: unknown
+  torch::Tensor down_camera;                        ///< [B,3] the world's down in camera coordinates
+  std::vector<std::int64_t> indices;                ///< of the data set, for messages
+
+  /// All tensors on `device`; images in `format`.
+  Batch to(torch::Device device, torch::MemoryFormat format) const;
 };
 
 /// Position of a cut-out's top left pixel. All views of a sample are cut alike and the principal point moves

@@ -25,8 +25,9 @@ std::int64_t place(double share, std::int64_t room) {
 
 }  // namespace
 
-BatchLoader::BatchLoader(SampleCache& cache, const BatchLoaderOptions& options, int epoch)
-    : cache_(cache), options_(options) {
+BatchLoader::BatchLoader(SampleCache& cache, const BatchLoaderOptions& options, int epoch,
+                         std::size_t first_batch)
+    : cache_(cache), options_(options), started_(first_batch) {
   const auto batch_size = static_cast<std::size_t>(options.batch_size);
   if (cache.size() < batch_size) {
     throw DataError("the training flights have " + std::to_string(cache.size()) +

@@ -22,7 +22,8 @@ struct BatchLoaderOptions {
 /// prepared in the background. Order and cut-outs depend on seed and epoch alone, not on threads.
 class BatchLoader {
  public:
-  BatchLoader(SampleCache& cache, const BatchLoaderOptions& options, int epoch);
+  /// @param first_batch batches before it are left out: what a resumed run has behind it
+  BatchLoader(SampleCache& cache, const BatchLoaderOptions& options, int epoch, std::size_t first_batch = 0);
 
   std::size_t batches() const { return plan_.size(); }
   /// The next batch, empty at the epoch's end. @throws DataError what happened while it was read

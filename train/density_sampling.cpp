@@ -1,40 +1,82 @@
 #include "train/density_sampling.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace alight {
 namespace {
 
-/// Uniform numbers in [0, 1), one a sample (equal ones for a draw by batch). @returns [B,1,1,1]
-torch::Tensor draw(std::int64_t batch, const DensitySamplingConfig& config, torch::Generator& generator) {
-  const std::int64_t count = config.draw == DensityDraw::kBatch ? 1 : batch;
-  return torch::rand({count, 1, 1, 1}, generator, torch::kFloat32).expand({batch, 1, 1, 1});
+/// SplitMix64 (Steele et al. 2014) over the three numbers: neighbouring keys give unrelated seeds.
+std::uint64_t mixed(std::uint64_t seed, std::uint64_t step, std::uint64_t place) {
+  std::uint64_t state = seed;
+  for (const std::uint64_t number : {step, place}) {
+    state += 0x9E3779B97F4A7C15ULL * (number + 1);
+    state = (state ^ (state >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+    state = (state ^ (state >> 27U)) * 0x94D049BB133111EBULL;
+    state ^= state >> 31U;
+  }
+  return state;
+}
+
+/// What is drawn for one sample.
+struct Lot {
+  bool lidar, image, right, height, window;
+  double share, begin_s, end_s;
+};
+
+Lot draw(const DensitySamplingConfig& c, torch::Generator& generator) {
+  const torch::Tensor lots = torch::rand({8}, generator, torch::kFloat64);
+  const auto u = [&](std::int64_t i) { return lots[i].item<double>(); };
+  Lot lot{};
+  lot.lidar = u(0) >= c.no_lidar_probability;
+  lot.share = c.min_share + (c.max_share - c.min_share) * u(1);
+  lot.image = !(lot.lidar && u(2) < c.no_image_probability);
+  lot.right = lot.image && u(3) >= c.no_right_probability;
+  lot.height = u(4) >= c.no_height_probability;
+  lot.window = c.mode == DensityMode::kWindow || (c.mode == DensityMode::kMixed && u(5) < 0.5);
+  lot.begin_s = c.window_begin_min_s + (c.window_begin_max_s - c.window_begin_min_s) * u(6);
+  lot.end_s = lot.begin_s + c.window_min_s * std::pow(c.window_max_s / c.window_min_s, u(7));
+  return lot;
+}
+
+torch::Tensor feed(const torch::Tensor& sparse_m, const torch::Tensor& offset_s, const Lot& lot,
+                   torch::Generator& generator) {
+  if (!lot.lidar) return torch::zeros_like(sparse_m);
+  if (lot.window)
+    return keep_window(sparse_m, offset_s, lot.begin_s, torch::full({}, lot.end_s, offset_s.options()));
+  return keep_share(sparse_m, torch::tensor(lot.share), generator);
 }
 
 }  // namespace
 
 void bind(Binder& b, DensitySamplingConfig& c) {
-  b.choice("mode", c.mode, {{"share", DensityMode::kShare}, {"window", DensityMode::kWindow}},
-           "feed a random share of the points, or those of an accumulation window");
+  b.choice("mode", c.mode,
+           {{"share", DensityMode::kShare}, {"window", DensityMode::kWindow}, {"mixed", DensityMode::kMixed}},
+           "feed a random share of the points, those of an accumulation window, or either");
   b.choice("draw", c.draw, {{"batch", DensityDraw::kBatch}, {"sample", DensityDraw::kSample}},
            "one draw for a batch (the paper) or for each of its samples");
   b.field("no_lidar_probability", c.no_lidar_probability, "how often no point is fed", between(0, 1));
   b.field("min_share", c.min_share, "smallest share of the points fed", between(0, 1));
   b.field("max_share", c.max_share, "largest share of the points fed", between(0, 1));
-  b.field("window_begin_s", c.window_begin_s, "begin of the window, relative to the image");
-  b.field("window_min_s", c.window_min_s, "shortest window", at_least(0));
-  b.field("window_max_s", c.window_max_s, "longest window", at_least(0));
+  b.field("window_begin_min_s", c.window_begin_min_s, "earliest begin of a window, relative to the image");
+  b.field("window_begin_max_s", c.window_begin_max_s, "latest begin of a window, relative to the image");
+  b.field("window_min_s", c.window_min_s, "shortest window", between(0.001, 60));
+  b.field("window_max_s", c.window_max_s, "longest window", between(0.001, 60));
   b.field("no_image_probability", c.no_image_probability,
-          "how often the image is black, of draws with points", between(0, 1));
+          "how often both eyes are black, of draws with points", between(0, 1));
+  b.field("no_right_probability", c.no_right_probability, "how often the right eye is black", between(0, 1));
+  b.field("no_height_probability", c.no_height_probability, "how often the height is unknown", between(0, 1));
+  b.check("window_begin_max_s", c.window_begin_max_s >= c.window_begin_min_s,
+          "expected at least window_begin_min_s");
   b.check("max_share", c.max_share >= c.min_share, "expected at least min_share");
   b.check("window_max_s", c.window_max_s >= c.window_min_s, "expected at least window_min_s");
 }
 
 torch::Tensor keep_share(const torch::Tensor& sparse_m, const torch::Tensor& share,
                          torch::Generator& generator) {
-  const torch::Tensor lot =
-      torch::rand(sparse_m.sizes(), generator, torch::kFloat32);  // below 1, so 1 keeps all
-  return sparse_m * (lot < share).to(sparse_m.dtype());
+  const torch::Tensor lot = torch::rand(sparse_m.sizes(), generator, torch::kFloat32)
+                                .to(sparse_m.device());  // below 1, so 1 keeps all
+  return sparse_m * (lot < share.to(sparse_m.device())).to(sparse_m.dtype());
 }
 
 torch::Tensor keep_window(const torch::Tensor& sparse_m, const torch::Tensor& offset_s, double begin_s,
@@ -42,27 +84,27 @@ torch::Tensor keep_window(const torch::Tensor& sparse_m, const torch::Tensor& of
   return sparse_m * ((offset_s >= begin_s) & (offset_s < end_s)).to(sparse_m.dtype());
 }
 
-NetworkInput sample_density(const torch::Tensor& image, const torch::Tensor& sparse_m,
-                            const torch::Tensor& offset_s, const DensitySamplingConfig& config,
-                            torch::Generator& generator) {
-  if (image.dim() != 4 || sparse_m.dim() != 4 || sparse_m.sizes() != offset_s.sizes()) {
-    throw std::invalid_argument("sample_density: expected image [B,3,H,W], sparse and offset [B,1,H,W]");
+NetworkInput sample_density(const torch::Tensor& image, const torch::Tensor& right,
+                            const torch::Tensor& sparse_m, const torch::Tensor& offset_s,
+                            const DensitySamplingConfig& config, const DrawKey& key) {
+  if (image.dim() != 4 || image.sizes() != right.sizes() || sparse_m.dim() != 4 ||
+      sparse_m.sizes() != offset_s.sizes()) {
+    throw std::invalid_argument("sample_density: expected images [B,3,H,W], sparse and offset [B,1,H,W]");
   }
-  const std::int64_t batch = sparse_m.size(0);
-  const torch::Tensor with_lidar = draw(batch, config, generator) >= config.no_lidar_probability;
-  const torch::Tensor amount = draw(batch, config, generator);
-  const torch::Tensor without_image = draw(batch, config, generator) < config.no_image_probability;
-
-  NetworkInput input;
-  if (config.mode == DensityMode::kShare) {
-    const torch::Tensor share = config.min_share + (config.max_share - config.min_share) * amount;
-    input.sparse_m = keep_share(sparse_m, share, generator);
-  } else {
-    const torch::Tensor length_s = config.window_min_s + (config.window_max_s - config.window_min_s) * amount;
-    input.sparse_m = keep_window(sparse_m, offset_s, config.window_begin_s, config.window_begin_s + length_s);
+  const auto step = static_cast<std::uint64_t>(key.step);
+  torch::Generator of_batch = at::detail::createCPUGenerator(mixed(key.seed, step, 0));
+  const Lot lot_of_batch = draw(config, of_batch);
+  NetworkInput input{image.clone(), right.clone(), torch::empty_like(sparse_m),
+                     torch::ones({image.size(0)}, image.options().dtype(torch::kBool))};
+  for (std::int64_t i = 0; i < image.size(0); ++i) {
+    torch::Generator of_sample =
+        at::detail::createCPUGenerator(mixed(key.seed, step, static_cast<std::uint64_t>(key.first + i + 1)));
+    const Lot lot = config.draw == DensityDraw::kBatch ? lot_of_batch : draw(config, of_sample);
+    input.sparse_m[i].copy_(feed(sparse_m[i], offset_s[i], lot, of_sample));
+    if (!lot.image) input.image[i].zero_();
+    if (!lot.right) input.right[i].zero_();
+    if (!lot.height) input.knows_height[i].fill_(false);
   }
-  input.sparse_m = input.sparse_m * with_lidar.to(sparse_m.dtype());
-  input.image = image * (~(with_lidar & without_image)).to(image.dtype());
   return input;
 }
 

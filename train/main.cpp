@@ -18,12 +18,14 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  alight-train --config configs/train/demo.yaml --output runs/demo\n"
     "  alight-train --config configs/train/demo.yaml --output runs/longer --set train.epochs=30\n"
+    "  alight-train --resume runs/demo\n"
     "  alight-train --config configs/train/paper.yaml --print-model\n"
     "  alight-train --config configs/train/paper.yaml --print-config\n";
 
 struct Options {
   ConfigOptions config;
   std::string output;
+  std::string resume;
   bool print_model = false;
   int model_size_px = 352;
 };
@@ -31,6 +33,7 @@ struct Options {
 void add_options(CLI::App& app, Options& options) {
   add_config_options(app, options.config);
   app.add_option("-o,--output", options.output, "Folder of the run; must not exist yet");
+  app.add_option("--resume", options.resume, "Go on with the run in this folder, from its last.pt");
   app.add_flag("--print-model", options.print_model,
                "Print the network's layers, parameters and GFLOP, then exit");
   app.add_option("--model-size", options.model_size_px, "Image side for --print-model, pixels")
@@ -39,17 +42,13 @@ void add_options(CLI::App& app, Options& options) {
   app.footer(kExamples);
 }
 
-/// The flights to learn from: those named, or all that are not held out.
-std::vector<std::string> training_flights(const TrainConfig& config) {
-  if (!config.train.flights.empty()) return config.train.flights;
-  std::vector<std::string> names;
-  for (const FlightEntry& flight : read_dataset_info(config.dataset).flights) {
-    const auto& held_out = config.validation.flights;
-    if (std::find(held_out.begin(), held_out.end(), flight.name) == held_out.end())
-      names.push_back(flight.name);
+/// What judges the run: the held-out blocks of its flights, or, where none is held out, the unknown flights.
+std::optional<DatasetSource> validation_source(const TrainConfig& config) {
+  for (const SplitPart part : {SplitPart::kHeldOut, SplitPart::kUnknown}) {
+    DatasetSource source(config.dataset, config.split, part, /*with_dense=*/true);
+    if (source.size() > 0) return source;
   }
-  if (names.empty()) throw ConfigError("validation.flights holds out every flight of " + config.dataset);
-  return names;
+  return std::nullopt;
 }
 
 void print_result(const ValidationReport& report) {
@@ -60,15 +59,11 @@ void print_result(const ValidationReport& report) {
               report.altitude_plane.ground_truth.rmse_mm(), report.fill_at(0.3).ground_truth.rmse_mm());
 }
 
-int train(const TrainConfig& config, const std::string& output) {
-  DatasetSource training(config.dataset, training_flights(config), /*with_dense=*/false);
-  std::optional<DatasetSource> validation;
-  if (!config.validation.flights.empty()) {
-    validation.emplace(config.dataset, config.validation.flights, /*with_dense=*/true);
-  }
-  RunFolder folder(output);
-  folder.write("config.yaml", print_config(config));
+int train(const TrainConfig& config, RunFolder& folder, bool resume) {
+  DatasetSource training(config.dataset, config.split, SplitPart::kTraining, /*with_dense=*/false);
+  std::optional<DatasetSource> validation = validation_source(config);
   Trainer trainer(config, training, validation ? &*validation : nullptr, folder);
+  if (resume) trainer.resume();
   spdlog::info("{} samples to learn from, {} held out, {} threads", training.size(),
                validation ? validation->size() : 0, at::get_num_threads());
   trainer.run();
@@ -77,7 +72,17 @@ int train(const TrainConfig& config, const std::string& output) {
   return kExitOk;
 }
 
+int resume(const Options& options) {
+  if (!options.config.file.empty() || !options.output.empty()) {
+    throw ConfigError(
+        "--resume takes the run's own configuration and folder; leave out --config and --output");
+  }
+  RunFolder folder(options.resume, RunFolder::Open::kExisting);
+  return train(load_config<TrainConfig>(folder.file("config.yaml"), options.config.overrides), folder, true);
+}
+
 int run(const Options& options) {
+  if (!options.resume.empty()) return resume(options);
   const auto config = load<TrainConfig>(options.config);
   if (print_if_asked(options.config, config)) return kExitOk;
   if (options.print_model) {
@@ -88,7 +93,9 @@ int run(const Options& options) {
   }
   if (options.output.empty())
     throw ConfigError("--output is missing: name the folder that the run is written to");
-  return train(config, options.output);
+  RunFolder folder(options.output);
+  folder.write("config.yaml", print_config(config));
+  return train(config, folder, false);
 }
 
 }  // namespace

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "dataset/depth_dataset.hpp"
+#include "train/split.hpp"
 
 namespace alight {
 
@@ -18,22 +17,22 @@ class SampleSource {
   virtual std::size_t size() const = 0;
   /// Called from several threads at once. @throws DataError naming the file
   virtual DepthSample get(std::size_t index) = 0;
-  /// The world's down in camera coordinates, unit length: the attitude, for the altitude plane.
-  virtual Eigen::Vector3d down_camera(std::size_t index) const = 0;
 };
 
-/// Samples of chosen flights of a data set on disk.
+/// The part of a data set that a split gives to somebody.
+enum class SplitPart { kTraining, kHeldOut, kUnknown };
+
+/// Samples of a part of a data set on disk.
 class DatasetSource : public SampleSource {
  public:
-  /// @param with_dense for evaluation only. @throws DataError as DepthDataset
-  DatasetSource(const std::filesystem::path& dir, const std::vector<std::string>& flights, bool with_dense);
-  std::size_t size() const override { return *dataset_.size(); }
-  DepthSample get(std::size_t index) override { return dataset_.get(index); }
-  Eigen::Vector3d down_camera(std::size_t index) const override;
-  const DepthDataset& dataset() const { return dataset_; }
+  /// @param with_dense for evaluation only. @throws DataError as DepthDataset, ConfigError as choose()
+  DatasetSource(const std::filesystem::path& dir, const SplitConfig& split, SplitPart part, bool with_dense);
+  std::size_t size() const override { return chosen_.size(); }
+  DepthSample get(std::size_t index) override { return dataset_.get(chosen_.at(index)); }
 
  private:
   DepthDataset dataset_;
+  std::vector<std::size_t> chosen_;  // index here -> index in the data set
 };
 
 }  // namespace alight

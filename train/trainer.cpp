@@ -1,20 +1,18 @@
 #include "train/trainer.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <thread>
 
 #include <spdlog/spdlog.h>
 
 #include "cli/progress_bar.hpp"
 #include "configs/errors.hpp"
-#include "models/checkpoint.hpp"
-#include "models/depth_conversion.hpp"
-#include "train/batch_loader.hpp"
+#include "train/network_pass.hpp"
 
 namespace alight {
 namespace {
+
+constexpr std::size_t kTerms = 5;
 
 std::string number(double value) {
   char text[32];
@@ -22,170 +20,223 @@ std::string number(double value) {
   return text;
 }
 
-DepthCompletionNet make_network(const TrainConfig& config) {
-  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
-  at::set_num_threads(config.train.threads > 0 ? config.train.threads : std::max(cores, 1));
+DepthCompletionNet make_network(const TrainConfig& config, torch::Device device) {
+  set_threads(config.compute.threads);
+  // Numbers of 1e-39 say nothing and cost a hundred times what others do.
+  at::globalContext().setFlushDenormal(true);
   torch::manual_seed(static_cast<std::uint64_t>(config.train.seed));
-  return DepthCompletionNet(config.model);
+  DepthCompletionNet net(config.model);
+  place(*net, device, config.compute.memory_format);
+  return net;
 }
 
-void add(EpochLosses& sum, const LossTerms& terms) {
-  sum.depth += terms.depth.item<double>();
-  sum.ratio += terms.ratio.item<double>();
-  sum.photometric += terms.photometric.item<double>();
-  sum.smoothness += terms.smoothness.item<double>();
-  sum.total += terms.total.item<double>();
+std::vector<double> values(const LossTerms& terms) {
+  return {terms.depth.item<double>(), terms.ratio.item<double>(), terms.photometric.item<double>(),
+          terms.smoothness.item<double>(), terms.total.item<double>()};
 }
 
-EpochLosses divided(const EpochLosses& sum, double count) {
-  return {sum.depth / count, sum.ratio / count, sum.photometric / count, sum.smoothness / count,
-          sum.total / count};
-}
-
-std::string describe(const EpochLosses& l) {
+std::string describe(const std::vector<double>& l) {
   char text[128];
-  std::snprintf(text, sizeof text, "loss %.4f (depth %.4f ratio %.4f photo %.4f smooth %.4f)", l.total,
-                l.depth, l.ratio, l.photometric, l.smoothness);
+  std::snprintf(text, sizeof text, "loss %.4f (depth %.4f ratio %.4f photo %.4f smooth %.4f)", l[4], l[0],
+                l[1], l[2], l[3]);
   return text;
+}
+
+std::string epoch_file(int epoch) {
+  char name[32];
+  std::snprintf(name, sizeof name, "epoch_%04d.pt", epoch);
+  return name;
 }
 
 }  // namespace
 
-double learning_rate_factor(const TrainingLoopConfig& config, int epoch, std::int64_t step) {
-  const double dropped =
-      config.drop_after_epoch > 0 && epoch > config.drop_after_epoch ? config.drop_factor : 1.0;
-  if (step >= config.warmup_steps) return dropped;
-  return dropped * static_cast<double>(step + 1) / static_cast<double>(config.warmup_steps);
-}
-
 Trainer::Trainer(const TrainConfig& config, SampleSource& training, SampleSource* validation,
                  RunFolder& folder)
     : config_(config),
+      device_(find_device(config.compute.device)),
       cache_(training, static_cast<std::size_t>(config.train.cache_mb) << 20U),
       validation_(validation),
       folder_(folder),
-      net_(make_network(config)),
-      random_(at::detail::createCPUGenerator(static_cast<std::uint64_t>(config.train.seed))) {
-  adam_.emplace(net_->parameters(), torch::optim::AdamOptions(config.train.learning_rate));
-}
-
-LossTerms Trainer::losses_of(const Batch& batch) {
-  const DepthKind kind = config_.model.depth_kind;
-  const NetworkInput input =
-      sample_density(batch.left, batch.sparse_m, batch.offset_s, config_.density, random_);
-  const torch::Tensor depth =
-      net_->forward(input.image, to_network_depth(input.sparse_m, batch.intrinsics_px, kind));
-  LossInputs inputs;
-  inputs.prediction_m = from_network_depth(depth, batch.intrinsics_px, kind);
-  inputs.ground_truth_m = batch.sparse_m;
-  inputs.input_m = input.sparse_m;
-  inputs.left = batch.left;
-  inputs.previous = batch.previous;
-  inputs.next = batch.next;
-  inputs.right = batch.right;
-  inputs.has_previous = batch.has_previous;
-  inputs.has_next = batch.has_next;
-  inputs.has_right = batch.has_right;
-  inputs.T_previous_camera = batch.T_previous_camera;
-  inputs.T_next_camera = batch.T_next_camera;
-  inputs.baseline_m = batch.baseline_m;
-  inputs.intrinsics_px = batch.intrinsics_px;
-  return TrainingLoss(config_.loss)(inputs);
-}
-
-LossTerms Trainer::train_step(const Batch& batch) {
-  LossTerms terms = losses_of(batch);
-  if (const std::string term = terms.first_not_finite(); !term.empty()) {
-    throw DataError("step " + std::to_string(step_) + ": the " + term +
-                    " loss is not finite; lower train.learning_rate, set train.clip_gradient_norm, or use "
-                    "loss.depth_error: log. Checkpoints of finished epochs are kept");
+      net_(make_network(config, device_)),
+      flying_(net_) {
+  if (config_.optimizer.average_decay > 0) {
+    flying_ = DepthCompletionNet(config_.model);
+    place(*flying_, device_, MemoryFormat::kContiguous);
+    update_average(*flying_, *net_, 0, 0);
+    flying_->eval();
   }
-  adam_->zero_grad();
-  terms.total.backward();
-  if (config_.train.clip_gradient_norm > 0) {
-    torch::nn::utils::clip_grad_norm_(net_->parameters(), config_.train.clip_gradient_norm);
-  }
-  adam_->step();
-  ++step_;
-  return terms;
+  optimizer_.emplace(*net_, config_.optimizer);
+  progress_.train_config = print_config(config_);
+  progress_.epoch_losses.assign(kTerms, 0);
 }
 
-EpochLosses Trainer::train_epoch(int epoch) {
+void Trainer::resume() {
+  if (!folder_.has("last.pt")) {
+    spdlog::info("{}: no last.pt yet, the run starts anew", folder_.path().string());
+    folder_.keep_metrics(0);
+    return;
+  }
+  progress_ = load_training(folder_.file("last.pt"), flying_, {net_, &optimizer_->adam()});
+  folder_.keep_metrics(progress_.epoch);
+  spdlog::info("goes on after epoch {}, step {}", progress_.epoch, progress_.step);
+}
+
+BatchLoader Trainer::loader(int epoch, std::size_t first_batch) {
   const TrainingLoopConfig& c = config_.train;
-  BatchLoader loader(
-      cache_, {c.batch_size, c.steps_per_epoch, c.crop_px, c.workers, static_cast<std::uint64_t>(c.seed)},
-      epoch);
+  return {cache_,
+          {c.batch_size, c.steps_per_epoch, c.crop_px, c.workers, static_cast<std::uint64_t>(c.seed)},
+          epoch,
+          first_batch};
+}
+
+std::int64_t Trainer::steps_per_epoch() {
+  return static_cast<std::int64_t>(loader(1, 0).batches()) / config_.optimizer.accumulate;
+}
+
+/// @param place of the batch's first sample among all of the step's
+LossTerms Trainer::losses_of(const Batch& batch, std::int64_t place) {
+  const NetworkInput input =
+      sample_density(batch.left, batch.right, batch.sparse_m, batch.offset_s, config_.density,
+                     {static_cast<std::uint64_t>(config_.train.seed), progress_.step, place});
+  torch::Tensor prediction_m;
+  {
+    const PrecisionScope scope(config_.compute.precision, device_);
+    prediction_m = predict(net_, batch, input);
+  }
+  return TrainingLoss(config_.loss)(loss_inputs(batch, input, prediction_m));
+}
+
+void Trainer::check_finite(const LossTerms& terms, const Batch& batch) const {
+  const std::string term = terms.first_not_finite();
+  if (term.empty()) return;
+  std::string samples;
+  for (const std::int64_t index : batch.indices)
+    samples += (samples.empty() ? "" : ", ") + std::to_string(index);
+  throw DataError(
+      "step " + std::to_string(progress_.step) + ", samples " + samples + ": the " + term +
+      " loss is not finite; lower optimizer.learning_rate, set optimizer.clip_gradient_norm, or use "
+      "loss.depth_error: log. Checkpoints of finished epochs are kept");
+}
+
+/// Gradients of `accumulate` batches averaged, then one step of the optimizer.
+void Trainer::train_step(BatchLoader& loader, int epoch) {
+  optimizer_->zero_grad();
+  const int count = config_.optimizer.accumulate;
+  for (int i = 0; i < count; ++i) {
+    const Batch batch = loader.next()->to(device_, torch_format(config_.compute.memory_format));
+    const LossTerms terms = losses_of(batch, static_cast<std::int64_t>(i) * config_.train.batch_size);
+    check_finite(terms, batch);
+    (terms.total / count).backward();
+    const std::vector<double> losses = values(terms);
+    for (std::size_t k = 0; k < kTerms; ++k) progress_.epoch_losses[k] += losses[k] / count;
+  }
+  const std::int64_t total_steps =
+      config_.train.epochs * (static_cast<std::int64_t>(loader.batches()) / count);
+  learning_rate_ = config_.optimizer.learning_rate *
+                   learning_rate_factor(config_.schedule, epoch, progress_.step, total_steps);
+  optimizer_->step(learning_rate_);
+  if (flying_.ptr() != net_.ptr()) {
+    update_average(*flying_, *net_, config_.optimizer.average_decay, progress_.step);
+  }
+  ++progress_.step;
+}
+
+std::vector<double> Trainer::mean_losses() const {
+  const double steps = static_cast<double>(progress_.epoch_step);
+  Losses means = progress_.epoch_losses;
+  for (double& mean : means) mean /= std::max(steps, 1.0);
+  return means;
+}
+
+void Trainer::train_epoch(int epoch) {
+  const TrainingLoopConfig& c = config_.train;
+  const std::int64_t steps = steps_per_epoch();
+  const std::int64_t images_a_step = static_cast<std::int64_t>(c.batch_size) * config_.optimizer.accumulate;
+  BatchLoader batches =
+      loader(epoch, static_cast<std::size_t>(progress_.epoch_step * config_.optimizer.accumulate));
   char label[48];
   std::snprintf(label, sizeof label, "epoch %d/%d", epoch, c.epochs);
-  ProgressBar bar(label, static_cast<std::int64_t>(loader.batches()) * c.batch_size, "images");
+  ProgressBar bar(label, (steps - progress_.epoch_step) * images_a_step, "images");
   net_->train();
-  EpochLosses sum;
-  double steps = 0;
-  while (std::optional<Batch> batch = loader.next()) {
-    const double rate = c.learning_rate * learning_rate_factor(c, epoch, step_);
-    for (auto& group : adam_->param_groups()) group.options().set_lr(rate);
-    add(sum, train_step(*batch));
-    bar.advance(c.batch_size, describe(divided(sum, ++steps)));
+  while (progress_.epoch_step < steps) {
+    train_step(batches, epoch);
+    ++progress_.epoch_step;
+    bar.advance(images_a_step, describe(mean_losses()));
+    if (c.save_every_steps > 0 && progress_.step % c.save_every_steps == 0) save("last.pt");
   }
-  return divided(sum, steps);
 }
 
 std::optional<ValidationReport> Trainer::validate_epoch() {
   if (validation_ == nullptr) return std::nullopt;
-  const ValidationConfig& c = config_.validation;
-  return validate(net_, *validation_, spread(validation_->size(), c.samples), c.shares,
-                  static_cast<std::uint64_t>(config_.train.seed));
+  return validate(flying_, *validation_, spread(validation_->size(), config_.validation.samples),
+                  config_.validation, static_cast<std::uint64_t>(config_.train.seed));
 }
 
-void Trainer::save(const std::string& name, int epoch) const {
-  save_checkpoint(folder_.file(name), net_, {epoch, step_, print_config(config_)}, &*adam_);
+void Trainer::save(const std::string& name) {
+  save_checkpoint(folder_.file(name), flying_, progress_, {net_, &optimizer_->adam()});
 }
 
-void Trainer::finish_epoch(int epoch, const EpochLosses& losses, double seconds) {
+void Trainer::finish_epoch(int epoch, double seconds) {
   const std::optional<ValidationReport> report = validate_epoch();
-  save("last.pt", epoch);
-  const bool best = !report || !best_score_mm_ || report->score_mm() < *best_score_mm_;
-  if (best) save("best.pt", epoch);
-  if (report && best) best_score_mm_ = report->score_mm();
+  // metrics.csv before last.pt: a run that is killed in between writes the row once more, and never loses it.
+  write_metrics(epoch, report, seconds);
+  const bool best = !report || report->score_mm() < progress_.best_score;
+  if (best) {
+    progress_.best_epoch = epoch;
+    if (report) progress_.best_score = report->score_mm();
+  }
+  progress_.epoch = epoch;
+  progress_.epoch_step = 0;
+  progress_.epoch_losses.assign(kTerms, 0);
+  if (best) save("best.pt");
+  if (config_.train.keep_every_epochs > 0 && epoch % config_.train.keep_every_epochs == 0)
+    save(epoch_file(epoch));
+  save("last.pt");
+  if (report)
+    spdlog::info("epoch {}: validation RMSE [mm]{}{}", epoch, report->summary(), best ? " (best)" : "");
+}
 
-  std::vector<std::string> head{"epoch", "steps", "total", "depth", "ratio", "photometric", "smoothness"};
-  std::vector<std::string> cells{std::to_string(epoch),    std::to_string(step_), number(losses.total),
-                                 number(losses.depth),     number(losses.ratio),  number(losses.photometric),
-                                 number(losses.smoothness)};
-  std::string summary;
+void Trainer::write_metrics(int epoch, const std::optional<ValidationReport>& report, double seconds) {
+  std::vector<std::string> head{"epoch", "steps",       "total",      "depth",
+                                "ratio", "photometric", "smoothness", "learning_rate"};
+  const Losses losses = mean_losses();
+  std::vector<std::string> cells{std::to_string(epoch), std::to_string(progress_.step),
+                                 number(losses[4]),     number(losses[0]),
+                                 number(losses[1]),     number(losses[2]),
+                                 number(losses[3]),     number(learning_rate_)};
   if (report) {
     for (const ValidationRow& row : report->network) {
       head.push_back("rmse_mm_" + row.name);
       cells.push_back(number(row.ground_truth.rmse_mm()));
-      summary += " " + row.name + " " + number(std::round(row.ground_truth.rmse_mm()));
     }
-    head.insert(head.end(), {"rmse_mm_altitude_plane"});
+    head.emplace_back("rmse_mm_altitude_plane");
     cells.push_back(number(report->altitude_plane.ground_truth.rmse_mm()));
-    summary += ", altitude plane " + number(std::round(report->altitude_plane.ground_truth.rmse_mm()));
   }
   head.emplace_back("seconds");
   cells.push_back(number(seconds));
   if (epoch == 1) folder_.append_metrics(head);
   folder_.append_metrics(cells);
-  if (report) spdlog::info("epoch {}: validation RMSE [mm]{}{}", epoch, summary, best ? " (best)" : "");
 }
 
 void Trainer::run() {
-  for (int epoch = 1; epoch <= config_.train.epochs; ++epoch) {
+  const TrainingLoopConfig& c = config_.train;
+  for (auto epoch = static_cast<int>(progress_.epoch) + 1; epoch <= c.epochs; ++epoch) {
+    if (c.early_stop_epochs > 0 && progress_.epoch - progress_.best_epoch >= c.early_stop_epochs) {
+      spdlog::info("no better validation for {} epochs: the run ends early", c.early_stop_epochs);
+      return;
+    }
     const auto start = std::chrono::steady_clock::now();
-    const EpochLosses losses = train_epoch(epoch);
-    finish_epoch(epoch, losses,
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    train_epoch(epoch);
+    finish_epoch(epoch, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
 }
 
 std::optional<ValidationReport> Trainer::evaluate_best() {
   if (validation_ == nullptr) return std::nullopt;
-  const LoadedNetwork best = load_network(folder_.file("best.pt"));
-  const ValidationConfig& c = config_.validation;
-  const std::vector<std::size_t> samples = spread(validation_->size(), c.final_samples);
+  const LoadedNetwork best = load_network(folder_.file("best.pt"), device_);
+  const std::vector<std::size_t> samples = spread(validation_->size(), config_.validation.final_samples);
   ProgressBar bar("validation", static_cast<std::int64_t>(samples.size()), "images");
-  ValidationReport report = validate(best.net, *validation_, samples, c.shares,
+  ValidationReport report = validate(best.net, *validation_, samples, config_.validation,
                                      static_cast<std::uint64_t>(config_.train.seed), [&] { bar.advance(); });
   bar.finish();
   folder_.write("validation.txt", "best.pt, epoch " + std::to_string(best.info.epoch) + ", " +

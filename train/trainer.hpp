@@ -7,8 +7,10 @@
 
 #include <torch/torch.h>
 
+#include "models/checkpoint.hpp"
 #include "models/depth_completion_net.hpp"
 #include "train/batch.hpp"
+#include "train/batch_loader.hpp"
 #include "train/run_folder.hpp"
 #include "train/sample_cache.hpp"
 #include "train/train_config.hpp"
@@ -16,52 +18,54 @@
 
 namespace alight {
 
-/// Means of the loss terms over an epoch, before weighting.
-struct EpochLosses {
-  double depth = 0;
-  double ratio = 0;
-  double photometric = 0;
-  double smoothness = 0;
-  double total = 0;
-};
-
-/// Factor of the learning rate at a step (paper 4.1: a tenth after epoch 20).
-/// @param epoch from 1 @param step steps finished before this one
-double learning_rate_factor(const TrainingLoopConfig& config, int epoch, std::int64_t step);
-
-/// Mixed-density training (paper 3.2 and 4.1). Same seed and number of threads: same weights, bit for bit.
+/// Mixed-density training (paper 3.2 and 4.1). Same seed and number of threads: same weights, bit for bit, whether the
+/// run was interrupted or not (float32).
 class Trainer {
  public:
   /// Sets torch's seed and threads and makes the network. @param validation held-out samples, or null
+  /// @throws ConfigError for a device that is not there
   Trainer(const TrainConfig& config, SampleSource& training, SampleSource* validation, RunFolder& folder);
 
-  /// All epochs. Writes last.pt, best.pt (lowest ValidationReport::score_mm; without validation the last) and
-  /// metrics.csv. @throws DataError naming step and term if a loss is not finite
+  /// Goes on where the run folder's last.pt stands; a run that never wrote one starts anew. Rows of metrics.csv that
+  /// came after last.pt are dropped. @throws DataError as load_training
+  void resume();
+
+  /// All epochs that are left. Writes last.pt, best.pt (lowest ValidationReport::score_mm; without validation the last)
+  /// and metrics.csv. @throws DataError naming step, samples and term if a loss is not finite
   void run();
 
-  /// The best network on final_samples of the held-out flights; writes validation.txt. Empty without
-  /// validation.
+  /// The best network on final_samples of the held-out samples; writes validation.txt. Empty without validation.
   std::optional<ValidationReport> evaluate_best();
 
-  DepthCompletionNet net() const { return net_; }
+  /// The network that is saved to fly: the one that learns, or the average of its weights.
+  DepthCompletionNet net() const { return flying_; }
 
  private:
-  EpochLosses train_epoch(int epoch);
-  LossTerms train_step(const Batch& batch);
-  LossTerms losses_of(const Batch& batch);
-  void finish_epoch(int epoch, const EpochLosses& losses, double seconds);
+  /// Means of the loss terms over batches, before weighting: depth, ratio, photometric, smoothness, total.
+  using Losses = std::vector<double>;
+
+  BatchLoader loader(int epoch, std::size_t first_batch);
+  std::int64_t steps_per_epoch();
+  void train_epoch(int epoch);
+  void train_step(BatchLoader& loader, int epoch);
+  LossTerms losses_of(const Batch& batch, std::int64_t place);
+  void check_finite(const LossTerms& terms, const Batch& batch) const;
+  void finish_epoch(int epoch, double seconds);
+  void write_metrics(int epoch, const std::optional<ValidationReport>& report, double seconds);
   std::optional<ValidationReport> validate_epoch();
-  void save(const std::string& name, int epoch) const;
+  void save(const std::string& name);
+  Losses mean_losses() const;
 
   TrainConfig config_;
+  torch::Device device_;
   SampleCache cache_;
   SampleSource* validation_;
   RunFolder& folder_;
   DepthCompletionNet net_{nullptr};
-  std::optional<torch::optim::Adam> adam_;
-  torch::Generator random_;
-  std::int64_t step_ = 0;
-  std::optional<double> best_score_mm_;
+  DepthCompletionNet flying_{nullptr};  // net_ itself, or the average of its weights
+  std::optional<Optimizer> optimizer_;
+  double learning_rate_ = 0;
+  CheckpointInfo progress_;
 };
 
 }  // namespace alight

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "models/altitude_plane.hpp"
 #include "models/depth_conversion.hpp"
 #include "models/sparse_fill.hpp"
-#include "train/altitude_plane.hpp"
 #include "train/density_sampling.hpp"
 
 namespace alight {
@@ -15,16 +15,28 @@ namespace {
 
 /// One sample as a batch of one.
 struct Scene {
-  torch::Tensor image;          // [1,3,H,W]
+  SceneView view;
   torch::Tensor sparse_m;       // [1,1,H,W]
+  torch::Tensor offset_s;       // [1,1,H,W]
   torch::Tensor dense_m;        // [1,1,H,W], undefined if there is none
+  torch::Tensor plane_m;        // [1,1,H,W], 0: the height is unknown
   torch::Tensor intrinsics_px;  // [1,4]
 };
 
-Scene scene(const DepthSample& sample) {
-  return {sample.left.unsqueeze(0), sample.sparse.unsqueeze(0),
+Scene scene(const DepthSample& sample, const DepthCompletionConfig& config) {
+  const torch::Tensor intrinsics_px = sample.intrinsics.unsqueeze(0);
+  const torch::Tensor plane_m =
+      altitude_planes(torch::tensor({sample.height_m}, torch::kFloat64), sample.down_camera.unsqueeze(0),
+                      intrinsics_px, sample.left.size(1), sample.left.size(2), config.max_depth_m);
+  SceneView view{sample.left.unsqueeze(0), sample.right.unsqueeze(0),
+                 to_network_depth(plane_m, intrinsics_px, config.depth_kind),
+                 intrinsics_px.select(1, 0) * sample.baseline_m};
+  return {view,
+          sample.sparse.unsqueeze(0),
+          sample.offset_s.unsqueeze(0),
           sample.dense.defined() ? sample.dense.unsqueeze(0) : torch::Tensor(),
-          sample.intrinsics.unsqueeze(0)};
+          plane_m,
+          intrinsics_px};
 }
 
 void add(ValidationRow& row, const Scene& scene, const torch::Tensor& prediction_m,
@@ -43,7 +55,7 @@ torch::Tensor interpolated_m(const torch::Tensor& fed_m) {
 
 const ValidationRow& nearest_row(const std::vector<ValidationRow>& rows, double share) {
   const auto further = [share](const ValidationRow& a, const ValidationRow& b) {
-    return std::abs(a.share - share) < std::abs(b.share - share);
+    return std::isnan(b.share) || std::abs(a.share - share) < std::abs(b.share - share);
   };
   return *std::min_element(rows.begin(), rows.end(), further);
 }
@@ -51,32 +63,40 @@ const ValidationRow& nearest_row(const std::vector<ValidationRow>& rows, double 
 void add_network(ValidationReport& report, DepthCompletionNet net, const Scene& scene,
                  torch::Generator& generator) {
   const DepthKind kind = net->config().depth_kind;
-  const auto image_pyramid = net->encode_image(scene.image);
+  const auto image_pyramid = net->encode_image(scene.view);
   for (std::size_t i = 0; i < report.network.size(); ++i) {
     ValidationRow& row = report.network[i];
-    const torch::Tensor fed_m = keep_share(scene.sparse_m, torch::tensor(row.share), generator);
-    const auto depth_pyramid = net->encode_depth(to_network_depth(fed_m, scene.intrinsics_px, kind));
+    const torch::Tensor fed_m =
+        std::isnan(row.share) ? keep_window(scene.sparse_m, scene.offset_s, 0, torch::full({}, row.window_s))
+                              : keep_share(scene.sparse_m, torch::tensor(row.share), generator);
+    const auto depth_pyramid =
+        net->encode_depth(to_network_depth(fed_m, scene.intrinsics_px, kind), scene.view.prior_m);
     const torch::Tensor depth = net->decode(image_pyramid, depth_pyramid);
     add(row, scene, from_network_depth(depth, scene.intrinsics_px, kind), fed_m);
     if ((fed_m > 0).any().item<bool>()) add(report.fill[i], scene, interpolated_m(fed_m), fed_m);
   }
 }
 
-void add_altitude_plane(ValidationReport& report, const Scene& scene, double height_m,
-                        const Eigen::Vector3d& down_camera, double max_depth_m) {
-  if (!std::isfinite(height_m) || !down_camera.allFinite()) return;
-  const torch::Tensor plane_m = altitude_plane(height_m, down_camera, scene.intrinsics_px[0],
-                                               scene.sparse_m.size(2), scene.sparse_m.size(3), max_depth_m);
-  add(report.altitude_plane, scene, plane_m, torch::zeros_like(scene.sparse_m));
+void add_altitude_plane(ValidationReport& report, const Scene& scene) {
+  if ((scene.plane_m > 0).any().item<bool>()) {
+    add(report.altitude_plane, scene, scene.plane_m, torch::zeros_like(scene.sparse_m));
+  }
 }
 
-ValidationReport empty_report(const std::vector<double>& shares) {
+ValidationReport empty_report(const ValidationConfig& config) {
   ValidationReport report;
-  for (const double share : shares) {
-    char name[32];
+  const auto add_rows = [&](const std::string& name, double share, double window_s) {
+    report.network.push_back({name, share, window_s, {}, {}, {}});
+    report.fill.push_back({"fill " + name, share, window_s, {}, {}, {}});
+  };
+  char name[32];
+  for (const double share : config.shares) {
     std::snprintf(name, sizeof name, "P=%g", share);
-    report.network.push_back({name, share, {}, {}, {}});
-    report.fill.push_back({std::string("fill ") + name, share, {}, {}, {}});
+    add_rows(name, share, 0);
+  }
+  for (const double window_s : config.windows_s) {
+    std::snprintf(name, sizeof name, "%gs", window_s);
+    add_rows(name, std::nan(""), window_s);
   }
   report.altitude_plane.name = "altitude plane";
   return report;
@@ -92,8 +112,9 @@ std::string cell(const ErrorMeter& meter) {
 }  // namespace
 
 void bind(Binder& b, ValidationConfig& c) {
-  b.field("flights", c.flights, "flights that are held out of training; none: no validation");
   b.field("shares", c.shares, "shares of the points fed (P)", between(0, 1));
+  b.field("windows_s", c.windows_s, "accumulation windows after the image, beside the shares",
+          between(0.001, 60));
   b.field("samples", c.samples, "samples after every epoch, evenly spread; 0: all", at_least(0));
   b.field("final_samples", c.final_samples, "samples at the end of the run; 0: all", at_least(0));
   b.check("shares", !c.shares.empty(), "expected at least one share");
@@ -123,6 +144,17 @@ std::string ValidationReport::table() const {
   return text;
 }
 
+std::string ValidationReport::summary() const {
+  std::string text;
+  char cell[64];
+  for (const ValidationRow& row : network) {
+    std::snprintf(cell, sizeof cell, " %s %.0f", row.name.c_str(), row.ground_truth.rmse_mm());
+    text += cell;
+  }
+  std::snprintf(cell, sizeof cell, ", altitude plane %.0f", altitude_plane.ground_truth.rmse_mm());
+  return text + cell;
+}
+
 std::vector<std::size_t> spread(std::size_t size, int count) {
   const std::size_t wanted = count <= 0 ? size : std::min(size, static_cast<std::size_t>(count));
   std::vector<std::size_t> chosen;
@@ -131,18 +163,18 @@ std::vector<std::size_t> spread(std::size_t size, int count) {
 }
 
 ValidationReport validate(DepthCompletionNet net, SampleSource& source,
-                          const std::vector<std::size_t>& samples, const std::vector<double>& shares,
+                          const std::vector<std::size_t>& samples, const ValidationConfig& config,
                           std::uint64_t seed, const std::function<void()>& progress) {
   torch::NoGradGuard no_grad;
   const bool was_training = net->is_training();
   net->eval();
-  ValidationReport report = empty_report(shares);
+  ValidationReport report = empty_report(config);
   for (const std::size_t index : samples) {
     const DepthSample sample = source.get(index);
-    const Scene view = scene(sample);
+    const Scene view = scene(sample, net->config());
     torch::Generator generator = at::detail::createCPUGenerator(seed + index);
     add_network(report, net, view, generator);
-    add_altitude_plane(report, view, sample.height_m, source.down_camera(index), net->config().max_depth_m);
+    add_altitude_plane(report, view);
     if (progress) progress();
   }
   report.samples = samples.size();

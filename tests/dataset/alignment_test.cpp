@@ -91,5 +91,15 @@ TEST(PointWindow, ProjectsOnlyItsSpanOfTime) {
   EXPECT_EQ(count(0, 300), 2);
 }
 
+TEST(HeightTrack, TakesTheLatestOnlyWhileItIsFresh) {
+  HeightTrack track;
+  track.add({1'000, 10.0});
+  track.add({2'000, 12.0});
+  EXPECT_EQ(track.at_or_latest(1'500, 100), 11.0);
+  EXPECT_EQ(track.at_or_latest(2'100, 100), 12.0);
+  EXPECT_TRUE(std::isnan(track.at_or_latest(2'101, 100)));
+  EXPECT_TRUE(std::isnan(track.at_or_latest(900, 100)));
+}
+
 }  // namespace
 }  // namespace alight

@@ -20,7 +20,8 @@ std::vector<SampleTime> samples() {
 
 std::vector<std::size_t> chosen(const std::string& yaml) {
   std::vector<std::size_t> indices;
-  for (const EvaluationItem& item : choose_items(samples(), parse_config<EvaluationConfig>(yaml, "evaluate.yaml"))) {
+  for (const EvaluationItem& item :
+       choose_items(samples(), parse_config<EvaluationConfig>(yaml, "evaluate.yaml"))) {
     EXPECT_EQ(item.flight, item.index < 10 ? "a" : "b");
     indices.push_back(item.index);
   }

@@ -58,7 +58,8 @@ TEST(Evaluator, APerfectMethodHasNoErrorAnywhere) {
 TEST(Evaluator, ARelativeErrorIsFoundInEveryRegionAndFlight) {
   auto source = test::scenes(3);
   const EvaluationReport report = report_of(list("far", a_tenth_too_far), source);
-  for (const Region region : {Region::kAll, Region::kDense, Region::kInsideFov, Region::kOutsideFov, Region::kNearEdges}) {
+  for (const Region region :
+       {Region::kAll, Region::kDense, Region::kInsideFov, Region::kOutsideFov, Region::kNearEdges}) {
     const FlightErrors& errors = report.cells[0][0].at(region);
     EXPECT_EQ(errors.flights().size(), 2U) << name(region);
     EXPECT_NEAR(errors.mean(Metric::kRel).mean, 100, 1e-3) << name(region);
@@ -101,7 +102,8 @@ TEST(Evaluator, WithoutAHeightNobodyStandsIn) {
     samples.back().height_m = std::nan("");
   }
   test::MemorySource source(std::move(samples));
-  const PixelErrors errors = report_of(list("nothing", nothing), source).cells[0][1].at(Region::kDense).pooled();
+  const PixelErrors errors =
+      report_of(list("nothing", nothing), source).cells[0][1].at(Region::kDense).pooled();
   EXPECT_EQ(errors.pixels(), 0);
   EXPECT_EQ(errors.unknown(), 3 * 48 * 48);
 }

@@ -18,19 +18,23 @@ LoadedNetwork small_network(DepthKind kind) {
   return {DepthCompletionNet(config), config, {}};
 }
 
-/// The network of a perspective model reads and predicts ranges; the method speaks plane depth.
+/// The network of a perspective model reads and predicts ranges; the method speaks plane depth. It shows the network
+/// both eyes, and what a camera that looks straight down sees of level ground: the height, everywhere.
 TEST(NetworkMethod, PredictsPlaneDepthWhateverTheNetworkLearned) {
-  const DepthSample sample = test::scene_sample(0);
+  DepthSample sample = test::scene_sample(0);
+  sample.right = test::random_image(48, 48);
   for (const DepthKind kind : {DepthKind::kPlane, DepthKind::kPerspective}) {
     LoadedNetwork network = small_network(kind);
-    const torch::Tensor depth_m = make_network_method("net", network)->complete(sample, sample.sparse, {0, 0, 1});
+    const torch::Tensor depth_m = make_network_method("net", network)->complete(sample, sample.sparse);
     ASSERT_EQ(depth_m.sizes(), sample.sparse.sizes());
     EXPECT_FALSE(depth_m.requires_grad());
     EXPECT_FALSE(network.net->is_training());
     const torch::Tensor lengths = ray_lengths(sample.intrinsics.unsqueeze(0), 48, 48);
     const torch::Tensor scale = kind == DepthKind::kPlane ? torch::ones_like(lengths) : lengths;
-    const torch::Tensor range_m = network.net->forward(sample.left.unsqueeze(0), sample.sparse.unsqueeze(0) * scale);
-    EXPECT_TRUE(torch::allclose(depth_m, (range_m / scale).squeeze(0), 1e-5));
+    const SceneView view{sample.left.unsqueeze(0), sample.right.unsqueeze(0), sample.height_m * scale,
+                         torch::tensor({40 * 0.01F})};
+    const torch::Tensor network_m = network.net->forward(view, sample.sparse.unsqueeze(0) * scale);
+    EXPECT_TRUE(torch::allclose(depth_m, (network_m / scale).squeeze(0), 1e-5));
   }
 }
 

@@ -9,7 +9,9 @@
 namespace alight {
 namespace {
 
-cv::Mat level(double depth_m, int side_px = 48) { return cv::Mat(side_px, side_px, CV_32FC1, cv::Scalar(depth_m)); }
+cv::Mat level(double depth_m, int side_px = 48) {
+  return cv::Mat(side_px, side_px, CV_32FC1, cv::Scalar(depth_m));
+}
 
 int count(const std::optional<SampleRegions::Pixels>& pixels) {
   if (!pixels) return -1;

@@ -25,7 +25,7 @@ class FakeMethod : public DepthMethod {
   using Function = std::function<torch::Tensor(const DepthSample&, const torch::Tensor&)>;
   FakeMethod(std::string name, Function function) : name_(std::move(name)), function_(std::move(function)) {}
   std::string name() const override { return name_; }
-  torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m, const Eigen::Vector3d&) const override {
+  torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m) const override {
     return function_(sample, fed_m);
   }
 

@@ -140,10 +140,11 @@ class FakePredictor : public DepthPredictor {
   using Rule = std::function<double(int points)>;
   explicit FakePredictor(Rule depth_of_points_m) : rule_(std::move(depth_of_points_m)) {}
 
-  std::unique_ptr<EncodedImage> encode(const cv::Mat& image) override {
+  std::unique_ptr<EncodedImage> encode(const PredictorView& view) override {
     ++encoded;
+    last_view = view;
     auto code = std::make_unique<Code>();
-    code->size = image.size();
+    code->size = view.left.size();
     return code;
   }
   cv::Mat refine(const EncodedImage& image, const cv::Mat& sparse_m) override {
@@ -152,6 +153,7 @@ class FakePredictor : public DepthPredictor {
     return {static_cast<const Code&>(image).size, CV_32FC1, cv::Scalar(rule_(points.back()))};
   }
 
+  PredictorView last_view;
   int encoded = 0;
   int refined = 0;
   std::vector<int> points;

@@ -14,6 +14,13 @@ namespace fs = std::filesystem;
 
 const PinholeIntrinsics kCamera{88, 88, 34.5, 25.5, 70, 52};
 
+RectifiedRig rig() {
+  RectifiedRig rig;
+  rig.intrinsics = kCamera;
+  rig.baseline_m = 0.08;
+  return rig;
+}
+
 class NetworkPredictor : public testing::TestWithParam<DepthKind> {
  protected:
   void SetUp() override {
@@ -40,8 +47,8 @@ TEST_P(NetworkPredictor, IsTheNetworkWithPlaneDepthOnBothSides) {
   for (int i = 0; i < 60; ++i)
     sparse.at<float>(i * 7 % 52, i * 11 % 70) = 10.0F + 0.1F * static_cast<float>(i);
 
-  const auto predictor = make_network_predictor(path_, kCamera, 1);
-  const auto encoded = predictor->encode(image);
+  const auto predictor = make_network_predictor(path_, rig(), 1);
+  const auto encoded = predictor->encode({image});
   const cv::Mat predicted = predictor->refine(*encoded, sparse);
   ASSERT_EQ(predicted.type(), CV_32FC1);
   ASSERT_EQ(predicted.size(), image.size());
@@ -58,7 +65,7 @@ TEST_P(NetworkPredictor, IsTheNetworkWithPlaneDepthOnBothSides) {
       sparse_tensor[0][0][v][u] = input.at<float>(v, u);
     }
   }
-  const torch::Tensor expected = net_->forward(image_tensor, sparse_tensor);
+  const torch::Tensor expected = net_->forward({image_tensor}, sparse_tensor);
   const cv::Mat lengths = ray_lengths(kCamera);
   for (int v = 0; v < 52; v += 5) {
     for (int u = 0; u < 70; u += 3) {
@@ -71,17 +78,41 @@ TEST_P(NetworkPredictor, IsTheNetworkWithPlaneDepthOnBothSides) {
       << "refining changes nothing";
 }
 
+TEST(NetworkPredictorPrior, HeightAttitudeAndRightImageReachTheNetwork) {
+  torch::manual_seed(5);
+  DepthCompletionConfig config = test::tiny_config();
+  config.prior = Prior::kAltitude;
+  config.stereo = true;
+  const fs::path path = fs::path(testing::TempDir()) / "alight_stereo_predictor.pt";
+  save_checkpoint(path, DepthCompletionNet(config));
+  const auto predictor = make_network_predictor(path, rig(), 1);
+  PredictorView view{cv::Mat(52, 70, CV_8UC3)};
+  cv::RNG(1).fill(view.left, cv::RNG::UNIFORM, 0, 256);
+  const auto depth_m = [&] {
+    return predictor->refine(*predictor->encode(view), cv::Mat::zeros(52, 70, CV_32FC1));
+  };
+  const auto mean_m = [&] { return cv::mean(depth_m())[0]; };
+  const double unknown_m = mean_m();
+  view.down_camera = Eigen::Vector3d::UnitZ();
+  view.height_m = 4;
+  const cv::Mat low = depth_m();
+  EXPECT_LT(cv::mean(low)[0], 0.5 * unknown_m) << "an untrained network starts near its prior";
+  view.left.copyTo(view.right);
+  EXPECT_GT(cv::norm(depth_m(), low, cv::NORM_INF), 0) << "the right image changes nothing";
+  fs::remove(path);
+}
+
 TEST_P(NetworkPredictor, GreyImagesWorkAndWrongSizesAreRefused) {
-  const auto predictor = make_network_predictor(path_, kCamera, 0);
-  const auto encoded = predictor->encode(cv::Mat(52, 70, CV_8UC1, cv::Scalar(80)));
+  const auto predictor = make_network_predictor(path_, rig(), 0);
+  const auto encoded = predictor->encode({cv::Mat(52, 70, CV_8UC1, cv::Scalar(80))});
   const cv::Mat predicted = predictor->refine(*encoded, cv::Mat::zeros(52, 70, CV_32FC1));
   EXPECT_EQ(cv::countNonZero(predicted > 0), 52 * 70);
-  EXPECT_THROW(predictor->encode(cv::Mat(64, 64, CV_8UC3)), std::invalid_argument);
+  EXPECT_THROW(predictor->encode({cv::Mat(64, 64, CV_8UC3)}), std::invalid_argument);
   EXPECT_THROW(predictor->refine(*encoded, cv::Mat::zeros(64, 64, CV_32FC1)), std::invalid_argument);
 }
 
 TEST(NetworkPredictorFile, MissingIsADataError) {
-  EXPECT_THROW(make_network_predictor("/nowhere/net.pt", kCamera, 1), DataError);
+  EXPECT_THROW(make_network_predictor("/nowhere/net.pt", rig(), 1), DataError);
 }
 
 }  // namespace

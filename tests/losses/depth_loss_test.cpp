@@ -23,6 +23,13 @@ TEST(DepthLoss, LogByHand) {
   EXPECT_NEAR(loss.item<double>(), (std::log(2.0) + std::log(3.0)) / 2, 1e-12);
 }
 
+TEST(DepthLoss, RmseByHandIsAMeanOfTheSamplesRoots) {
+  const torch::Tensor prediction = torch::cat({map64({1, 2, 3, 4}, 2), map64({5, 5, 5, 5}, 2)});
+  const torch::Tensor target = torch::cat({map64({0, 2, 1, 0}, 2), map64({9, 0, 0, 0}, 2)});
+  EXPECT_NEAR(depth_loss(prediction, target, DepthError::kRmse).item<double>(), (std::sqrt(2.0) + 4.0) / 2,
+              2e-3);
+}
+
 class DepthLossForms : public testing::TestWithParam<DepthError> {};
 
 TEST_P(DepthLossForms, GradientIsThatOfCentralDifferences) {
@@ -54,7 +61,8 @@ TEST_P(DepthLossForms, ChangesNeitherWithSizeNorWithDensity) {
       dense_loss, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, DepthLossForms, testing::Values(DepthError::kSquared, DepthError::kLog));
+INSTANTIATE_TEST_SUITE_P(All, DepthLossForms,
+                         testing::Values(DepthError::kSquared, DepthError::kLog, DepthError::kRmse));
 
 TEST(DepthLoss, RefusesOtherShapes) {
   EXPECT_THROW(depth_loss(torch::ones({1, 1, 2, 2}), torch::ones({1, 1, 2, 3})), std::invalid_argument);

@@ -54,6 +54,27 @@ TEST(TrainingLoss, SelfSupervisedComparesWithTheInput) {
   EXPECT_TRUE(torch::equal(TrainingLoss(config)(in).depth, depth_loss(in.prediction_m, in.input_m)));
 }
 
+TEST(TrainingLoss, HeldOutComparesWithWhatWasNotFed) {
+  const LossInputs in = random_inputs();
+  TrainingLossConfig config;
+  config.target = LossTarget::kHeldOut;
+  const torch::Tensor held_out = in.ground_truth_m - in.input_m;
+  EXPECT_TRUE(torch::equal(TrainingLoss(config)(in).depth, depth_loss(in.prediction_m, held_out)));
+}
+
+TEST(TrainingLoss, HalvesOfABatchAverageToTheWhole) {
+  const auto total = [](std::int64_t from, std::int64_t to) {
+    LossInputs in = random_inputs(4);
+    for (torch::Tensor* t : {&in.prediction_m, &in.ground_truth_m, &in.input_m, &in.left, &in.previous,
+                             &in.next, &in.right, &in.has_previous, &in.has_next, &in.has_right,
+                             &in.T_previous_camera, &in.T_next_camera, &in.baseline_m, &in.intrinsics_px}) {
+      *t = t->slice(0, from, to);
+    }
+    return TrainingLoss()(in).total.item<double>();
+  };
+  EXPECT_NEAR(total(0, 4), (total(0, 2) + total(2, 4)) / 2, 1e-5);
+}
+
 TEST(TrainingLoss, WeightZeroIsNotComputed) {
   LossInputs in = random_inputs();
   for (torch::Tensor* image : {&in.previous, &in.next, &in.right})

@@ -1,8 +1,11 @@
 #include "models/checkpoint.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include <sys/resource.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,7 +54,7 @@ void train_step(DepthCompletionNet net, torch::optim::Adam& adam, int seed) {
   torch::manual_seed(static_cast<std::uint64_t>(seed));
   net->train();
   adam.zero_grad();
-  net->forward(torch::rand({2, 3, 32, 32}), random_sparse_m(2, 32, 32)).log().square().mean().backward();
+  net->forward({torch::rand({2, 3, 32, 32})}, random_sparse_m(2, 32, 32)).log().square().mean().backward();
   adam.step();
 }
 
@@ -59,18 +62,22 @@ TEST_F(Checkpoint, RoundTripIsBitIdentical) {
   DepthCompletionNet net(tiny_config());
   torch::optim::Adam adam(net->parameters(), 1e-3);
   train_step(net, adam, 1);  // moves the running statistics too
-  save_checkpoint(folder_ / "net.pt", net, {3, 77, "seed: 1\n"});
+  save_checkpoint(folder_ / "net.pt", net, {3, 77, "seed: 1\n", 5, {1, 2.5}, 12.5, 2});
   LoadedNetwork loaded = load_network(folder_ / "net.pt");
   EXPECT_EQ(print_config(loaded.config), print_config(net->config()));
   EXPECT_EQ(loaded.info.epoch, 3);
   EXPECT_EQ(loaded.info.step, 77);
   EXPECT_EQ(loaded.info.train_config, "seed: 1\n");
+  EXPECT_EQ(loaded.info.epoch_step, 5);
+  EXPECT_EQ(loaded.info.epoch_losses, (std::vector<double>{1, 2.5}));
+  EXPECT_EQ(loaded.info.best_score, 12.5);
+  EXPECT_EQ(loaded.info.best_epoch, 2);
   EXPECT_FALSE(loaded.net->is_training());
   net->eval();
   torch::NoGradGuard no_grad;
   const torch::Tensor image = torch::rand({1, 3, 33, 47});
   const torch::Tensor sparse_m = random_sparse_m(1, 33, 47);
-  EXPECT_TRUE(torch::equal(loaded.net->forward(image, sparse_m), net->forward(image, sparse_m)));
+  EXPECT_TRUE(torch::equal(loaded.net->forward({image}, sparse_m), net->forward({image}, sparse_m)));
 }
 
 TEST_F(Checkpoint, EqualNetworksAreEqualFiles) {
@@ -79,7 +86,7 @@ TEST_F(Checkpoint, EqualNetworksAreEqualFiles) {
     DepthCompletionNet net(tiny_config());
     torch::optim::Adam adam(net->parameters(), 1e-3);
     train_step(net, adam, 1);
-    save_checkpoint(folder_ / name, net, {}, &adam);
+    save_checkpoint(folder_ / name, net, {}, {net, &adam});
   }
   EXPECT_EQ(bytes(folder_ / "a.pt"), bytes(folder_ / "b.pt"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
@@ -89,17 +96,57 @@ TEST_F(Checkpoint, ResumedOptimizerEqualsUninterrupted) {
   DepthCompletionNet net(tiny_config());
   torch::optim::Adam adam(net->parameters(), 1e-3);
   train_step(net, adam, 1);
-  save_checkpoint(folder_ / "net.pt", net, {}, &adam);
+  save_checkpoint(folder_ / "net.pt", net, {}, {net, &adam});
   train_step(net, adam, 2);
 
   DepthCompletionNet resumed(tiny_config());
   torch::optim::Adam resumed_adam(resumed->parameters(), 1e-3);
-  load_checkpoint(folder_ / "net.pt", resumed, &resumed_adam);
+  load_training(folder_ / "net.pt", resumed, {resumed, &resumed_adam});
   train_step(resumed, resumed_adam, 2);
   const auto expected = net->named_parameters();
   for (const auto& item : resumed->named_parameters()) {
     EXPECT_TRUE(torch::equal(item.value(), expected[item.key()])) << item.key();
   }
+}
+
+TEST_F(Checkpoint, NetworkThatLearnsIsKeptBesideTheOneThatFlies) {
+  DepthCompletionNet net(tiny_config()), flying(tiny_config());
+  torch::optim::Adam adam(net->parameters(), 1e-3);
+  train_step(net, adam, 1);
+  save_checkpoint(folder_ / "net.pt", flying, {}, {net, &adam});
+  const auto weight = [](DepthCompletionNet n) { return n->parameters()[0]; };
+  EXPECT_TRUE(torch::equal(weight(load_network(folder_ / "net.pt").net), weight(flying)));
+  DepthCompletionNet resumed(tiny_config()), resumed_flying(tiny_config());
+  torch::optim::Adam resumed_adam(resumed->parameters(), 1e-3);
+  load_training(folder_ / "net.pt", resumed_flying, {resumed, &resumed_adam});
+  EXPECT_TRUE(torch::equal(weight(resumed), weight(net)));
+  EXPECT_TRUE(torch::equal(weight(resumed_flying), weight(flying)));
+}
+
+TEST_F(Checkpoint, WithoutTrainingStateNothingIsResumed) {
+  DepthCompletionNet net(tiny_config());
+  save_checkpoint(folder_ / "net.pt", net);
+  torch::optim::Adam adam(net->parameters(), 1e-3);
+  EXPECT_THAT(data_error([&] {
+                load_training(folder_ / "net.pt", net, {net, &adam});
+              }),
+              HasSubstr("holds no training state"));
+}
+
+TEST_F(Checkpoint, FullDiskLeavesTheFileBeforeAsItWas) {
+  DepthCompletionNet net(tiny_config());
+  save_checkpoint(folder_ / "net.pt", net);
+  const std::string before = bytes(folder_ / "net.pt");
+  rlimit unlimited{};
+  getrlimit(RLIMIT_FSIZE, &unlimited);
+  const rlimit small{1000, unlimited.rlim_max};
+  signal(SIGXFSZ, SIG_IGN);  // writing past the limit is then an error, as on a full disk
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = data_error([&] { save_checkpoint(folder_ / "net.pt", net, {1, 1, "x"}); });
+  setrlimit(RLIMIT_FSIZE, &unlimited);
+  EXPECT_THAT(message, HasSubstr("net.pt"));
+  EXPECT_EQ(bytes(folder_ / "net.pt"), before);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
 TEST_F(Checkpoint, OtherNetworkNamesTheFirstTensorAndBothShapes) {
@@ -132,11 +179,14 @@ TEST_F(Checkpoint, CutFileIsRefused) {
   EXPECT_THAT(data_error([&] { load_network(folder_ / "net.pt"); }), HasSubstr("not a checkpoint"));
 }
 
-TEST_F(Checkpoint, NewerVersionIsRefused) {
-  torch::serialize::OutputArchive archive;
-  archive.write("alight_checkpoint_version", c10::IValue(kCheckpointVersion + 1));
-  archive.save_to((folder_ / "newer.pt").string());
-  EXPECT_THAT(data_error([&] { load_network(folder_ / "newer.pt"); }), HasSubstr("newer than this program"));
+TEST_F(Checkpoint, OtherVersionsAreRefused) {
+  for (const std::int64_t step : {-1, 1}) {
+    torch::serialize::OutputArchive archive;
+    archive.write("alight_checkpoint_version", c10::IValue(kCheckpointVersion + step));
+    archive.save_to((folder_ / "other.pt").string());
+    EXPECT_THAT(data_error([&] { load_network(folder_ / "other.pt"); }),
+                HasSubstr(step > 0 ? "is newer than this program's" : "is older than this program's"));
+  }
 }
 
 TEST_F(Checkpoint, UnwritableFolderIsADataError) {

@@ -41,6 +41,20 @@ TEST(SparseFill, FollowsASlopeBetweenThePoints) {
   EXPECT_LT(error.mean().item<float>(), 0.5);  // pixels; half the distance to the next point
 }
 
+TEST(SparseFill, SmoothingKeepsWhatIsGivenAndBringsTheFillNearerToASlope) {
+  const torch::Tensor value =
+      (torch::arange(64).view({1, 1, 1, 64}) + 0.5 * torch::arange(64).view({1, 1, 64, 1}))
+          .to(torch::kFloat32);
+  torch::manual_seed(3);
+  const torch::Tensor valid = (torch::rand({1, 1, 64, 64}) < 0.1).to(torch::kFloat32);
+  const torch::Tensor smooth = fill_pyramid(value, valid, 4).value;
+  EXPECT_TRUE(torch::equal(smooth * valid, value * valid));
+  const auto error = [&](const torch::Tensor& filled) {  // between the points, where nothing is extrapolated
+    return (filled - value).slice(2, 8, 56).slice(3, 8, 56).square().mean().item<double>();
+  };
+  EXPECT_LT(error(smooth), 0.5 * error(fill_pyramid(value, valid).value));
+}
+
 TEST(SparseFill, EmptyMapIsZeroAndCoarsest) {
   const torch::Tensor none = torch::zeros({1, 1, 5, 6});
   const SparseFill fill = fill_pyramid(none, none);

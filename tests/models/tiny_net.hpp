@@ -19,4 +19,12 @@ inline torch::Tensor random_sparse_m(std::int64_t batch, std::int64_t height, st
   return depth_m * (torch::rand_like(depth_m) < 0.2).to(depth_m.dtype());
 }
 
+/// Both eyes, a height and a baseline.
+inline SceneView random_view(std::int64_t batch, std::int64_t height, std::int64_t width) {
+  SceneView view{torch::rand({batch, 3, height, width}), torch::rand({batch, 3, height, width})};
+  view.prior_m = 5 + 20 * torch::rand({batch, 1, height, width});
+  view.focal_baseline_px_m = torch::full({batch}, 35.0);
+  return view;
+}
+
 }  // namespace alight::test

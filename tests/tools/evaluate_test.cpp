@@ -54,7 +54,8 @@ TEST(Evaluate, WritesATableAndPicturesOfANetworkBesideTheBaselines) {
        {"net.pt", "nearest", "Delaunay", "Delaunay, inverse depth", "IP-Basic", "altitude plane"}) {
     EXPECT_THAT(table, HasSubstr(std::string(method) + " | ")) << method;
   }
-  for (const char* region : {"all", "held_out", "dense", "inside_fov", "outside_fov", "near_edges", "right image"}) {
+  for (const char* region :
+       {"all", "held_out", "dense", "inside_fov", "outside_fov", "near_edges", "right image"}) {
     EXPECT_THAT(table, HasSubstr("\n## " + std::string(region) + "\n")) << region;
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "worst"), {}), 1);
@@ -84,9 +85,9 @@ TEST(EvaluateDepth, JudgesADepthMapOfADataSet) {
                            (flight / "left/000000.png").string() + " --right " +
                            (flight / "right/000000.png").string() + " --depth " +
                            (flight / "dense/000000.png").string();
-  const ToolRun run = run_tool(pair + " --centre-cropped --sparse " + (flight / "depth/000000.png").string() +
-                               " --truth " + (flight / "dense/000000.png").string() +
-                               " --config configs/infer/paper.yaml");
+  const ToolRun run =
+      run_tool(pair + " --centre-cropped --sparse " + (flight / "depth/000000.png").string() + " --truth " +
+               (flight / "dense/000000.png").string() + " --config configs/infer/paper.yaml");
   EXPECT_EQ(run.exit_code, 0) << run.out;
   EXPECT_THAT(run.out, AllOf(HasSubstr("sim_pred   0."), HasSubstr("sim_d      0."), HasSubstr("verdict"),
                              HasSubstr("RMSE [mm]          0.00")));

@@ -35,6 +35,9 @@ TEST(Batch, WholeImagesComeBackBitForBit) {
   EXPECT_TRUE(torch::equal(batch.offset_s, pair(a.offset_s, b.offset_s)));
   EXPECT_TRUE(torch::equal(batch.intrinsics_px, pair(a.intrinsics, b.intrinsics)));
   EXPECT_TRUE(batch.has_right.all().item<bool>());
+  EXPECT_EQ(batch.height_m[1].item<float>(), static_cast<float>(b.height_m));
+  EXPECT_TRUE(torch::equal(batch.down_camera, pair(a.down_camera, b.down_camera)));
+  EXPECT_EQ(batch.indices, (std::vector<std::int64_t>{0, 1}));
 }
 
 TEST(Batch, CutOutsKeepTheGeometry) {

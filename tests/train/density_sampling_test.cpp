@@ -10,6 +10,7 @@ namespace alight {
 namespace {
 
 torch::Generator generator(std::uint64_t seed = 1) { return at::detail::createCPUGenerator(seed); }
+DrawKey at_step(std::int64_t step, std::uint64_t seed = 1) { return {seed, step, 0}; }
 torch::Tensor images(std::int64_t batch) { return torch::ones({batch, 3, 40, 50}); }
 torch::Tensor points(std::int64_t batch) { return torch::full({batch, 1, 40, 50}, 12.0F); }
 torch::Tensor no_offset(std::int64_t batch) { return torch::zeros({batch, 1, 40, 50}); }
@@ -37,12 +38,11 @@ TEST(DensitySampling, KeepWindowIsHalfOpen) {
 }
 
 TEST(DensitySampling, PaperModeDrawsOneDensityABatch) {
-  torch::Generator random = generator();
   int without = 0;
   constexpr int kBatches = 400;
   for (int i = 0; i < kBatches; ++i) {
     const torch::Tensor share =
-        fed_share(sample_density(images(2), points(2), no_offset(2), {}, random).sparse_m);
+        fed_share(sample_density(images(2), images(2), points(2), no_offset(2), {}, at_step(i)).sparse_m);
     const double first = share[0].item<double>();
     if (first == 0) {
       ++without;
@@ -59,9 +59,8 @@ TEST(DensitySampling, PaperModeDrawsOneDensityABatch) {
 TEST(DensitySampling, DrawBySampleMixesABatch) {
   DensitySamplingConfig config;
   config.draw = DensityDraw::kSample;
-  torch::Generator random = generator();
-  const torch::Tensor share =
-      fed_share(sample_density(images(64), points(64), no_offset(64), config, random).sparse_m);
+  const torch::Tensor share = fed_share(
+      sample_density(images(64), images(64), points(64), no_offset(64), config, at_step(0)).sparse_m);
   EXPECT_GT((share == 0).sum().item<int>(), 3);
   EXPECT_GT((share > 0.3).sum().item<int>(), 10);
   EXPECT_GT(((share > 0) & (share < 0.3)).sum().item<int>(), 10);
@@ -74,10 +73,10 @@ TEST(DensitySampling, WindowFeedsTheFirstPointsInTime) {
   config.window_min_s = 0.2;
   config.window_max_s = 0.6;
   const torch::Tensor offset = torch::linspace(-1, 1, 2000).view({1, 1, 40, 50});
-  torch::Generator random = generator();
   std::set<double> latest;
   for (int i = 0; i < 20; ++i) {
-    const torch::Tensor fed = sample_density(images(1), points(1), offset, config, random).sparse_m > 0;
+    const torch::Tensor fed =
+        sample_density(images(1), images(1), points(1), offset, config, at_step(i)).sparse_m > 0;
     const torch::Tensor times = offset.masked_select(fed);
     EXPECT_GE(times.min().item<double>(), 0);
     EXPECT_LT(times.min().item<double>(), 0.01);
@@ -93,10 +92,10 @@ TEST(DensitySampling, NeverWithoutBothSensors) {
   DensitySamplingConfig config;
   config.no_lidar_probability = 0.5;
   config.no_image_probability = 0.5;
-  torch::Generator random = generator();
   int without_image = 0;
   for (int i = 0; i < 200; ++i) {
-    const NetworkInput input = sample_density(images(1), points(1), no_offset(1), config, random);
+    const NetworkInput input =
+        sample_density(images(1), images(1), points(1), no_offset(1), config, at_step(i));
     const bool image = input.image.sum().item<double>() > 0;
     EXPECT_TRUE(image || input.sparse_m.sum().item<double>() > 0);
     without_image += !image;
@@ -104,22 +103,59 @@ TEST(DensitySampling, NeverWithoutBothSensors) {
   EXPECT_NEAR(without_image / 200.0, 0.25, 0.1);
 }
 
-TEST(DensitySampling, SameSeedSamePoints) {
-  torch::Generator a = generator(3);
-  torch::Generator b = generator(3);
-  torch::Generator c = generator(4);
-  const auto draw = [](torch::Generator& random) {
-    return sample_density(images(2), points(2), no_offset(2), {}, random).sparse_m +
-           sample_density(images(2), points(2), no_offset(2), {}, random).sparse_m;
+TEST(DensitySampling, MixedFeedsSharesAndWindows) {
+  DensitySamplingConfig config;
+  config.mode = DensityMode::kMixed;
+  config.no_lidar_probability = 0;
+  config.window_begin_min_s = config.window_begin_max_s = -0.3;
+  const torch::Tensor offset = torch::linspace(-1, 1, 2000).view({1, 1, 40, 50});
+  int windows = 0;
+  for (int i = 0; i < 100; ++i) {
+    const torch::Tensor fed =
+        sample_density(images(1), images(1), points(1), offset, config, at_step(i)).sparse_m > 0;
+    windows += offset.masked_select(fed).min().item<double>() >= -0.3 ? 1 : 0;
+  }
+  EXPECT_NEAR(windows / 100.0, 0.5, 0.15);
+}
+
+TEST(DensitySampling, RightEyeAndHeightAreDroppedAsOftenAsSaid) {
+  DensitySamplingConfig config;
+  config.draw = DensityDraw::kSample;
+  config.no_right_probability = 0.3;
+  config.no_height_probability = 0.2;
+  const NetworkInput input =
+      sample_density(images(400), images(400), points(400), no_offset(400), config, at_step(0));
+  EXPECT_NEAR((input.right.amax({1, 2, 3}) == 0).to(torch::kFloat32).mean().item<double>(), 0.3, 0.07);
+  EXPECT_NEAR(input.knows_height.to(torch::kFloat32).mean().item<double>(), 0.8, 0.07);
+  EXPECT_EQ((input.image.amax({1, 2, 3}) == 0).sum().item<int>(), 0);
+}
+
+TEST(DensitySampling, SameKeySamePoints) {
+  const auto draw = [](const DrawKey& key) {
+    return sample_density(images(2), images(2), points(2), no_offset(2), {}, key).sparse_m;
   };
-  const torch::Tensor first = draw(a);
-  EXPECT_TRUE(torch::equal(first, draw(b)));
-  EXPECT_FALSE(torch::equal(first, draw(c)));
+  EXPECT_TRUE(torch::equal(draw(at_step(5, 3)), draw(at_step(5, 3))));
+  EXPECT_FALSE(torch::equal(draw(at_step(5, 3)), draw(at_step(6, 3))));
+  EXPECT_FALSE(torch::equal(draw(at_step(5, 3)), draw(at_step(5, 4))));
+}
+
+TEST(DensitySampling, PartsOfABatchDrawWhatTheWholeDraws) {
+  for (const DensityDraw mode : {DensityDraw::kBatch, DensityDraw::kSample}) {
+    DensitySamplingConfig config;
+    config.draw = mode;
+    const auto draw = [&](std::int64_t count, std::int64_t first) {
+      return sample_density(images(count), images(count), points(count), no_offset(count), config,
+                            {3, 7, first})
+          .sparse_m;
+    };
+    EXPECT_TRUE(torch::equal(draw(4, 0), torch::cat({draw(2, 0), draw(2, 2)})));
+  }
 }
 
 TEST(DensitySamplingConfig, RefusesEmptyRanges) {
   EXPECT_THROW(parse_config<DensitySamplingConfig>("{min_share: 0.5, max_share: 0.4}", "test"), ConfigError);
-  EXPECT_THROW(parse_config<DensitySamplingConfig>("{window_min_s: 2}", "test"), ConfigError);
+  EXPECT_THROW(parse_config<DensitySamplingConfig>("{window_min_s: 2, window_max_s: 1}", "test"),
+               ConfigError);
 }
 
 }  // namespace

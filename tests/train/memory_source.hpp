@@ -10,13 +10,12 @@
 
 namespace alight::test {
 
-/// Samples held in memory, with a camera that looks straight down.
+/// Samples held in memory.
 class MemorySource : public SampleSource {
  public:
   explicit MemorySource(std::vector<DepthSample> samples) : samples_(std::move(samples)) {}
   std::size_t size() const override { return samples_.size(); }
   DepthSample get(std::size_t index) override { return samples_.at(index); }
-  Eigen::Vector3d down_camera(std::size_t) const override { return Eigen::Vector3d::UnitZ(); }
 
  private:
   std::vector<DepthSample> samples_;
@@ -46,6 +45,7 @@ inline DepthSample scene_sample(std::int64_t index, std::int64_t height = 48, st
   sample.T_next_camera = torch::eye(4);
   sample.intrinsics = torch::tensor(
       {40.0F, 40.0F, 0.5F * static_cast<float>(width - 1), 0.5F * static_cast<float>(height - 1)});
+  sample.down_camera = torch::tensor({0.0F, 0.0F, 1.0F});
   sample.has_right = sample.has_previous = sample.has_next = true;
   sample.baseline_m = 0.01;
   sample.height_m = ground_m + 1;  // the take-off place lies a metre lower

@@ -39,6 +39,22 @@ TEST_F(RunFolderTest, RefusesAnEarlierRun) {
   EXPECT_EQ(text("config.yaml"), "seed: 1\n");
 }
 
+TEST_F(RunFolderTest, OpensAnEarlierRunWhereAskedTo) {
+  { RunFolder(path_).write("config.yaml", "seed: 1\n"); }
+  EXPECT_TRUE(RunFolder(path_, RunFolder::Open::kExisting).has("config.yaml"));
+  EXPECT_THROW(RunFolder(path_ / "absent", RunFolder::Open::kExisting), DataError);
+}
+
+TEST_F(RunFolderTest, KeepsTheRowsOfFinishedEpochs) {
+  RunFolder folder(path_);
+  for (const char* epoch : {"epoch", "1", "2", "3"}) folder.append_metrics({epoch, "x"});
+  folder.keep_metrics(2);
+  folder.append_metrics({"3", "y"});
+  EXPECT_EQ(text("metrics.csv"), "epoch,x\n1,x\n2,x\n3,y\n");
+  folder.keep_metrics(0);
+  EXPECT_EQ(text("metrics.csv"), "");
+}
+
 TEST_F(RunFolderTest, TakesAnEmptyFolder) {
   fs::create_directories(path_);
   EXPECT_NO_THROW(RunFolder{path_});

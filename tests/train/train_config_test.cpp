@@ -32,19 +32,16 @@ TEST(TrainConfig, PaperFileIsThePapersConfiguration) {
   EXPECT_EQ(c.density.mode, DensityMode::kShare);
   EXPECT_EQ(c.density.draw, DensityDraw::kBatch);
   EXPECT_EQ(c.density.no_lidar_probability, 0.2);
-  EXPECT_EQ(c.train.learning_rate, 2e-4);
+  EXPECT_EQ(c.optimizer.learning_rate, 2e-4);
+  EXPECT_EQ(c.optimizer.kind, OptimizerKind::kAdam);
+  EXPECT_EQ(c.schedule.kind, ScheduleKind::kStep);
   EXPECT_EQ(c.train.batch_size, 16);
   EXPECT_EQ(c.train.epochs, 30);
-  EXPECT_EQ(c.train.drop_after_epoch, 20);
-  EXPECT_EQ(c.train.drop_factor, 0.1);
+  EXPECT_EQ(c.schedule.drop_after_epoch, 20);
+  EXPECT_EQ(c.schedule.drop_factor, 0.1);
   EXPECT_EQ(c.model.depth_input, DepthInput::kRaw);
   EXPECT_EQ(c.model.head, Head::kDirect);
   EXPECT_EQ(c.model.depth_kind, DepthKind::kPerspective);
-}
-
-TEST(TrainConfig, ValidationMustBeHeldOut) {
-  EXPECT_THROW(parse_config<TrainConfig>("{train: {flights: [a, b]}, validation: {flights: [b]}}", "test"),
-               ConfigError);
 }
 
 TEST(TrainConfig, SomethingMustBeMinimised) {
@@ -57,7 +54,8 @@ TEST(TrainConfig, SomethingMustBeMinimised) {
 TEST(TrainConfig, PrintsAndReadsBack) {
   TrainConfig c;
   c.train.crop_px = 192;
-  c.validation.flights = {"flight_3"};
+  c.split.unknown_flights = {"flight_3"};
+  c.split.held_out_blocks = {{0.2, 0.4}};
   const std::string text = print_config(c);
   EXPECT_EQ(print_config(parse_config<TrainConfig>(text, "printed")), text);
 }

@@ -1,8 +1,10 @@
 #include "train/trainer.hpp"
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -27,8 +29,8 @@ TrainConfig tiny_training() {
   c.train.epochs = 2;
   c.train.batch_size = 2;
   c.train.crop_px = 32;
-  c.train.threads = 1;
-  c.train.learning_rate = 2e-3;
+  c.compute.threads = 1;
+  c.optimizer.learning_rate = 2e-3;
   c.validation.shares = {0, 0.3};
   return c;
 }
@@ -54,7 +56,7 @@ class TrainerTest : public testing::Test {
 
 TEST_F(TrainerTest, SameSeedGivesTheSameFileBitForBit) {
   TrainConfig config = tiny_training();
-  config.train.threads = 2;
+  config.compute.threads = 2;
   train(config, "a");
   config.train.workers = 3;
   train(config, "b");
@@ -83,10 +85,10 @@ TEST_F(TrainerTest, RunFolderHoldsCheckpointsAndMetrics) {
   std::istringstream metrics(bytes("run/metrics.csv"));
   std::string head, line;
   std::getline(metrics, head);
-  EXPECT_EQ(
-      head,
-      "epoch,steps,total,depth,ratio,photometric,smoothness,rmse_mm_P=0,rmse_mm_P=0.3,rmse_mm_altitude_plane,"
-      "seconds");
+  EXPECT_EQ(head,
+            "epoch,steps,total,depth,ratio,photometric,smoothness,learning_rate,rmse_mm_P=0,rmse_mm_P=0.3,"
+            "rmse_mm_altitude_plane,"
+            "seconds");
   int lines = 0;
   while (std::getline(metrics, line)) {
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(head.begin(), head.end(), ','));
@@ -102,7 +104,7 @@ TEST_F(TrainerTest, LearnsToBeatTheAltitudePlane) {
   config.density.draw = DensityDraw::kSample;
   config.train.epochs = 3;
   config.train.steps_per_epoch = 20;
-  config.train.learning_rate = 5e-3;
+  config.optimizer.learning_rate = 5e-3;
   MemorySource training = scenes(12);
   MemorySource validation = scenes(4, 50);
   RunFolder folder(root_ / "run");
@@ -120,9 +122,107 @@ TEST_F(TrainerTest, PerspectiveNetworksAndWholeImagesTrainToo) {
   config.model.depth_input = DepthInput::kRaw;
   config.model.head = Head::kDirect;
   config.train.crop_px.reset();
-  config.train.clip_gradient_norm = 1;
+  config.optimizer.clip_gradient_norm = 1;
   config.train.epochs = 1;
   EXPECT_NO_THROW(train(config, "run"));
+}
+
+/// Stands for kill -9: whatever is in memory is lost at a sample, what is on disk stays.
+class DyingSource : public MemorySource {
+ public:
+  DyingSource(MemorySource source, int samples_to_live)
+      : MemorySource(std::move(source)), left_(samples_to_live) {}
+  DepthSample get(std::size_t index) override {
+    if (left_-- <= 0) throw DataError("killed");
+    return MemorySource::get(index);
+  }
+
+ private:
+  std::atomic<int> left_;
+};
+
+/// Averages, accumulation, steps inside an epoch: everything that a run has to remember.
+TrainConfig resumable_training() {
+  TrainConfig config = tiny_training();
+  config.train.epochs = 3;
+  config.train.cache_mb = 0;  // the source is asked for every sample
+  config.train.save_every_steps = 1;
+  config.optimizer.average_decay = 0.9;
+  config.optimizer.accumulate = 2;
+  config.schedule.kind = ScheduleKind::kCosine;
+  config.train.batch_size = 1;
+  config.density.draw = DensityDraw::kSample;
+  return config;
+}
+
+TEST_F(TrainerTest, ResumedRunEqualsTheUninterruptedOneBitForBit) {
+  const TrainConfig config = resumable_training();
+  train(config, "whole");
+  const auto seconds_off = [](const std::string& metrics) {
+    return std::regex_replace(metrics, std::regex(",[^,\n]*\n"), "\n");
+  };
+  for (const int killed_after : {0, 1, 5, 7, 12, 17}) {
+    const std::string run = "killed_" + std::to_string(killed_after);
+    {
+      DyingSource training(scenes(6), killed_after);
+      MemorySource validation = scenes(2, 50);
+      RunFolder folder(root_ / run);
+      folder.write("config.yaml", print_config(config));
+      EXPECT_THROW(Trainer(config, training, &validation, folder).run(), DataError);
+    }
+    MemorySource training = scenes(6);
+    MemorySource validation = scenes(2, 50);
+    RunFolder folder(root_ / run, RunFolder::Open::kExisting);
+    Trainer trainer(config, training, &validation, folder);
+    trainer.resume();
+    trainer.run();
+    EXPECT_EQ(bytes(run + "/last.pt"), bytes("whole/last.pt")) << killed_after;
+    EXPECT_EQ(bytes(run + "/best.pt"), bytes("whole/best.pt")) << killed_after;
+    EXPECT_EQ(seconds_off(bytes(run + "/metrics.csv")), seconds_off(bytes("whole/metrics.csv")))
+        << killed_after;
+  }
+}
+
+TEST_F(TrainerTest, AccumulatedBatchesAreOneLargeBatch) {
+  TrainConfig config = tiny_training();
+  config.density.draw = DensityDraw::kSample;
+  config.train.epochs = 1;
+  config.train.batch_size = 4;
+  config.train.steps_per_epoch = 1;
+  train(config, "large");
+  config.train.batch_size = 2;
+  config.train.steps_per_epoch = 2;
+  config.optimizer.accumulate = 2;
+  train(config, "accumulated");
+  const auto large = load_network(root_ / "large" / "last.pt").net->named_parameters();
+  for (const auto& item : load_network(root_ / "accumulated" / "last.pt").net->named_parameters()) {
+    EXPECT_TRUE(torch::allclose(item.value(), large[item.key()], 1e-3, 1e-5)) << item.key();
+  }
+}
+
+TEST_F(TrainerTest, LowPrecisionAndChannelsLastTrainToo) {
+  TrainConfig config = tiny_training();
+  config.model.normalization = Normalization::kBatch;
+  config.compute.precision = Precision::kBfloat16;
+  config.compute.memory_format = MemoryFormat::kChannelsLast;
+  train(config, "run");
+  for (const auto& item : load_network(root_ / "run" / "last.pt").net->named_parameters()) {
+    EXPECT_EQ(item.value().scalar_type(), torch::kFloat32) << item.key();
+    EXPECT_TRUE(item.value().isfinite().all().item<bool>()) << item.key();
+  }
+}
+
+TEST_F(TrainerTest, KeepsEveryNthEpochAndStopsEarly) {
+  TrainConfig config = tiny_training();
+  config.train.epochs = 30;
+  config.train.keep_every_epochs = 2;
+  config.train.early_stop_epochs = 2;
+  config.optimizer.learning_rate = 1e-12;  // nothing gets better after the first epoch
+  train(config, "run");
+  const LoadedNetwork last = load_network(root_ / "run" / "last.pt");
+  EXPECT_EQ(last.info.epoch, last.info.best_epoch + 2);
+  EXPECT_TRUE(fs::exists(root_ / "run" / "epoch_0002.pt"));
+  EXPECT_FALSE(fs::exists(root_ / "run" / "epoch_0001.pt"));
 }
 
 TEST_F(TrainerTest, LossThatIsNotFiniteNamesStepAndTerm) {
@@ -138,19 +238,8 @@ TEST_F(TrainerTest, LossThatIsNotFiniteNamesStepAndTerm) {
     trainer.run();
     FAIL() << "expected a DataError";
   } catch (const DataError& e) {
-    EXPECT_THAT(e.what(), testing::HasSubstr("step 0: the depth loss is not finite"));
+    EXPECT_THAT(e.what(), testing::ContainsRegex("step 0, samples [01], [01]: the depth loss is not finite"));
   }
-}
-
-TEST(LearningRate, FallsAfterTheEpochAndRisesAtFirst) {
-  TrainingLoopConfig c;
-  EXPECT_EQ(learning_rate_factor(c, 20, 1000), 1);
-  EXPECT_EQ(learning_rate_factor(c, 21, 1000), 0.1);
-  c.warmup_steps = 10;
-  EXPECT_EQ(learning_rate_factor(c, 1, 0), 0.1);
-  EXPECT_EQ(learning_rate_factor(c, 1, 9), 1);
-  c.drop_after_epoch = 0;
-  EXPECT_EQ(learning_rate_factor(c, 99, 1000), 1);
 }
 
 }  // namespace

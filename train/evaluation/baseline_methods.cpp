@@ -1,11 +1,10 @@
 #include "train/evaluation/baseline_methods.hpp"
 
-#include <cmath>
 #include <functional>
 #include <utility>
 
 #include "geometry/depth_map.hpp"
-#include "train/altitude_plane.hpp"
+#include "models/altitude_plane.hpp"
 #include "train/evaluation/delaunay.hpp"
 #include "train/evaluation/ip_basic.hpp"
 
@@ -17,8 +16,7 @@ class Interpolation : public DepthMethod {
   Interpolation(std::string name, std::function<cv::Mat(const cv::Mat&)> fill)
       : name_(std::move(name)), fill_(std::move(fill)) {}
   std::string name() const override { return name_; }
-  torch::Tensor complete(const DepthSample&, const torch::Tensor& fed_m,
-                         const Eigen::Vector3d&) const override {
+  torch::Tensor complete(const DepthSample&, const torch::Tensor& fed_m) const override {
     return depth_to_tensor(fill_(tensor_to_depth(fed_m)));
   }
 
@@ -31,11 +29,9 @@ class AltitudePlane : public DepthMethod {
  public:
   explicit AltitudePlane(double max_depth_m) : max_depth_m_(max_depth_m) {}
   std::string name() const override { return "altitude plane"; }
-  torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m,
-                         const Eigen::Vector3d& down_camera) const override {
-    if (!(sample.height_m > 0) || !down_camera.allFinite()) return torch::zeros_like(fed_m);
-    return altitude_plane(sample.height_m, down_camera, sample.intrinsics, fed_m.size(1), fed_m.size(2),
-                          max_depth_m_)
+  torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m) const override {
+    return altitude_planes(torch::tensor({sample.height_m}, torch::kFloat64), sample.down_camera.unsqueeze(0),
+                           sample.intrinsics.unsqueeze(0), fed_m.size(1), fed_m.size(2), max_depth_m_)
         .squeeze(0);
   }
 

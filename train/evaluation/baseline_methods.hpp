@@ -13,7 +13,7 @@ struct BaselineConfig {
 };
 void bind(Binder& b, BaselineConfig& c);
 
-/// Level ground at the reported height (train/altitude_plane.hpp); unknown where the height is unknown or not positive.
+/// Level ground at the reported height (models/altitude_plane.hpp); unknown where the height is unknown or not positive.
 std::unique_ptr<DepthMethod> make_altitude_plane(const BaselineConfig& config);
 
 /// Whatever needs no training (METHOD, "Evaluation"): nearest, Delaunay linear in depth and in inverse depth, IP-Basic,

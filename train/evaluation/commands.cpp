@@ -12,6 +12,7 @@
 #include "train/evaluation/network_method.hpp"
 #include "train/evaluation/table.hpp"
 #include "train/evaluation/worst_samples.hpp"
+#include "train/train_config.hpp"
 
 namespace alight {
 namespace {
@@ -32,6 +33,8 @@ EvaluationConfig resolve(const EvaluateOptions& options) {
   auto config = load<EvaluationConfig>(options.config);
   if (!options.flights.empty()) config.flights = options.flights;
   if (options.every > 0) config.every = options.every;
+  if (!options.split.empty()) config.split = load_config<TrainConfig>(options.split).split;
+  if (options.part) config.part = *options.part;
   if (options.blocks.empty()) return config;
   config.part = EvaluatedPart::kHeldOut;
   config.split = {};
@@ -47,6 +50,19 @@ DepthMethods make_methods(const EvaluateOptions& options, const EvaluationConfig
   for (auto& baseline : make_baselines(config.baselines)) methods.push_back(std::move(baseline));
   return methods;
 }
+
+/// All samples of a data set; which of them are judged is chosen by index.
+class WholeDataset : public SampleSource {
+ public:
+  explicit WholeDataset(const std::string& dir)
+      : dataset_(dir, DepthDatasetOptions{{}, /*with_dense=*/true}) {}
+  std::size_t size() const override { return *dataset_.size(); }
+  DepthSample get(std::size_t index) override { return dataset_.get(index); }
+  const DepthDataset& dataset() const { return dataset_; }
+
+ private:
+  DepthDataset dataset_;
+};
 
 std::vector<SampleTime> sample_times(const DepthDataset& dataset) {
   std::vector<SampleTime> times;
@@ -106,7 +122,7 @@ int run_evaluate(const EvaluateOptions& options) {
   const EvaluationConfig config = resolve(options);
   if (print_if_asked(options.config, config)) return kExitOk;
   check_options(options);
-  DatasetSource source(options.data, {}, /*with_dense=*/true);
+  WholeDataset source(options.data);
   const std::vector<EvaluationItem> items = choose_items(sample_times(source.dataset()), config);
   const DepthMethods methods = make_methods(options, config);
   std::optional<OutputFolder> pictures;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/command_line.hpp"
+#include "train/evaluation/evaluation_config.hpp"
 
 namespace alight {
 
@@ -14,6 +16,8 @@ struct EvaluateOptions {
   std::string data;
   std::string output;
   std::vector<std::string> flights;  ///< in place of the configuration's
+  std::string split;                 ///< a configuration of alight-train, whose split holds; empty: ours
+  std::optional<EvaluatedPart> part;
   std::vector<std::string>
       blocks;            ///< "0.4:0.6": only these parts of the flights, in place of `split` and `part`
   int every = 0;         ///< 0: the configuration's

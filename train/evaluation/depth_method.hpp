@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
 #include <torch/torch.h>
 
 #include "dataset/depth_dataset.hpp"
@@ -17,12 +16,10 @@ class DepthMethod {
   virtual ~DepthMethod() = default;
   virtual std::string name() const = 0;
   /// Called from several threads at once.
-  /// @param sample what else a method may look at: images, height, intrinsics; never its truth or its unfed points
+  /// @param sample what else a method may look at: images, height, attitude, intrinsics; never its truth or unfed points
   /// @param fed_m [1,H,W] float32, plane depth in metres of the points to complete, 0 = none
-  /// @param down_camera the world's down in camera coordinates, unit length
   /// @returns [1,H,W] float32, plane depth in metres, 0 = unknown
-  virtual torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m,
-                                 const Eigen::Vector3d& down_camera) const = 0;
+  virtual torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m) const = 0;
 };
 
 using DepthMethods = std::vector<std::unique_ptr<DepthMethod>>;

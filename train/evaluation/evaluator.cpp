@@ -30,15 +30,14 @@ class SampleEvaluation {
 
   SamplePart operator()(std::size_t index) const {
     const DepthSample sample = source_.get(index);
-    const Eigen::Vector3d down_camera = source_.down_camera(index);
     const cv::Mat dense_m = sample.dense.defined() ? tensor_to_depth(sample.dense) : cv::Mat();
-    const Judge judge(*this, sample, down_camera, dense_m);
+    const Judge judge(*this, sample, dense_m);
     SamplePart part;
     part.cells.resize(methods_.size());
     for (const Feeding& feeding : feedings_) {
       const torch::Tensor fed_m = feed(sample, feeding, static_cast<std::uint64_t>(config_.seed) + index);
       for (std::size_t m = 0; m < methods_.size(); ++m) {
-        const cv::Mat predicted_m = tensor_to_depth(methods_[m]->complete(sample, fed_m, down_camera));
+        const cv::Mat predicted_m = tensor_to_depth(methods_[m]->complete(sample, fed_m));
         part.cells[m].push_back(judge.cell(predicted_m, tensor_to_depth(fed_m), feeding));
         if (m == 0 && feeding.name() == config_.picture_feeding) {
           part.first_method_rmse_mm = judge.truth_rmse_mm(part.cells[m].back(), !dense_m.empty());
@@ -52,11 +51,10 @@ class SampleEvaluation {
   /// What is the same for all predictions of a sample.
   class Judge {
    public:
-    Judge(const SampleEvaluation& all, const DepthSample& sample, const Eigen::Vector3d& down_camera,
-          const cv::Mat& dense_m)
+    Judge(const SampleEvaluation& all, const DepthSample& sample, const cv::Mat& dense_m)
         : regions_(tensor_to_depth(sample.sparse), dense_m, all.rig_, all.config_.regions),
           plane_m_(tensor_to_depth(make_altitude_plane(all.config_.baselines)
-                                       ->complete(sample, torch::zeros_like(sample.sparse), down_camera))) {
+                                       ->complete(sample, torch::zeros_like(sample.sparse)))) {
       if (sample.has_right) {
         stereo_.emplace(tensor_to_image(sample.left), tensor_to_image(sample.right), all.rig_);
       }

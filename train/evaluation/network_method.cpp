@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "models/altitude_plane.hpp"
 #include "models/depth_conversion.hpp"
 
 namespace alight {
@@ -14,15 +15,20 @@ class NetworkMethod : public DepthMethod {
     network_.net->eval();
   }
   std::string name() const override { return name_; }
-  torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m,
-                         const Eigen::Vector3d&) const override {
+  torch::Tensor complete(const DepthSample& sample, const torch::Tensor& fed_m) const override {
     const torch::NoGradGuard no_grad;
-    const torch::Tensor intrinsics = sample.intrinsics.unsqueeze(0);
-    const DepthKind kind = network_.config.depth_kind;
+    const DepthCompletionConfig& config = network_.config;
+    const torch::Tensor intrinsics_px = sample.intrinsics.unsqueeze(0);
+    const torch::Tensor plane_m =
+        altitude_planes(torch::tensor({sample.height_m}, torch::kFloat64), sample.down_camera.unsqueeze(0),
+                        intrinsics_px, fed_m.size(1), fed_m.size(2), config.max_depth_m);
+    const SceneView view{sample.left.unsqueeze(0), sample.right.unsqueeze(0),
+                         to_network_depth(plane_m, intrinsics_px, config.depth_kind),
+                         intrinsics_px.select(1, 0) * sample.baseline_m};
     DepthCompletionNet net = network_.net;  // a handle
     const torch::Tensor depth =
-        net->forward(sample.left.unsqueeze(0), to_network_depth(fed_m.unsqueeze(0), intrinsics, kind));
-    return from_network_depth(depth, intrinsics, kind).squeeze(0);
+        net->forward(view, to_network_depth(fed_m.unsqueeze(0), intrinsics_px, config.depth_kind));
+    return from_network_depth(depth, intrinsics_px, config.depth_kind).squeeze(0);
   }
 
  private:

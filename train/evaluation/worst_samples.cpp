@@ -73,7 +73,7 @@ ErrorPicture picture_of(const SampleError& sample_error, const DepthMethod& meth
   const torch::Tensor fed_m = feed(sample, feeding, static_cast<std::uint64_t>(config.seed) + index);
   return {text("%s: %.0f mm", sample_error.item.flight.c_str(), sample_error.rmse_mm),
           tensor_to_image(sample.left), tensor_to_depth(fed_m),
-          tensor_to_depth(method.complete(sample, fed_m, source.down_camera(index))),
+          tensor_to_depth(method.complete(sample, fed_m)),
           tensor_to_depth(sample.dense.defined() ? sample.dense : sample.sparse)};
 }
 

@@ -1,4 +1,4 @@
-#include "train/altitude_plane.hpp"
+#include "models/altitude_plane.hpp"
 
 #include <cmath>
 
@@ -28,6 +28,16 @@ TEST(AltitudePlane, TiltedEveryPixelLiesOnTheGround) {
 TEST(AltitudePlane, AboveTheHorizonIsTheLimit) {
   const torch::Tensor plane = altitude_plane(20, -Eigen::Vector3d::UnitZ(), intrinsics(), 3, 3, 150);
   EXPECT_TRUE(torch::equal(plane, torch::full({1, 1, 3, 3}, 150.0F)));
+}
+
+TEST(AltitudePlane, BatchHoldsEachSamplesPlaneAndZeroWhereTheHeightIsUnknown) {
+  const torch::Tensor height_m = torch::tensor({12.5, std::nan(""), -1.0}, torch::kFloat64);
+  const torch::Tensor down =
+      torch::tensor({{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}}, torch::kFloat64);
+  const torch::Tensor planes = altitude_planes(height_m, down, intrinsics().expand({3, 4}), 13, 21, 100);
+  ASSERT_EQ(planes.sizes(), (std::vector<std::int64_t>{3, 1, 13, 21}));
+  EXPECT_TRUE(torch::allclose(planes[0], torch::full({1, 13, 21}, 12.5)));
+  EXPECT_EQ(planes.slice(0, 1).abs().max().item<float>(), 0);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#include "train/compute.hpp"
+
+#include <gtest/gtest.h>
+
+#include "configs/errors.hpp"
+
+namespace alight {
+namespace {
+
+TEST(Compute, FindsTheDevicesThatThereAre) {
+  EXPECT_TRUE(find_device("cpu").is_cpu());
+  EXPECT_EQ(find_device("auto").is_cuda(), torch::cuda::is_available());
+  EXPECT_THROW(find_device("gpu"), ConfigError);
+  if (!torch::cuda::is_available()) {
+    EXPECT_THROW(find_device("cuda:0"), ConfigError);
+  }
+}
+
+TEST(Compute, PrecisionHoldsInsideTheScopeOnly) {
+  const torch::Tensor image = torch::rand({1, 4, 8, 8});
+  const torch::Tensor weight = torch::rand({4, 4, 3, 3});
+  const auto type = [&] { return torch::conv2d(image, weight).scalar_type(); };
+  {
+    const PrecisionScope scope(Precision::kBfloat16, torch::kCPU);
+    EXPECT_EQ(type(), torch::kBFloat16);
+  }
+  EXPECT_EQ(type(), torch::kFloat32);
+  const PrecisionScope scope(Precision::kFloat32, torch::kCPU);
+  EXPECT_EQ(type(), torch::kFloat32);
+}
+
+TEST(Compute, PlacesWeightsInTheFormat) {
+  torch::nn::Conv2d conv(4, 8, 3);
+  const torch::Tensor before = conv->weight.detach().clone();
+  place(*conv, torch::kCPU, MemoryFormat::kChannelsLast);
+  EXPECT_TRUE(conv->weight.is_contiguous(torch::MemoryFormat::ChannelsLast));
+  EXPECT_TRUE(torch::equal(conv->weight, before));
+  EXPECT_TRUE(conv->weight.requires_grad());
+}
+
+}  // namespace
+}  // namespace alight

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "losses/training_loss.hpp"
+#include "models/depth_completion_net.hpp"
+#include "train/batch.hpp"
+#include "train/density_sampling.hpp"
+
+namespace alight {
+
+/// What the network is shown of a batch before its points: both eyes, and the altitude plane where the height is known.
+/// @param knows_height [B] bool
+SceneView scene_view(const Batch& batch, const torch::Tensor& image, const torch::Tensor& right,
+                     const torch::Tensor& knows_height, const DepthCompletionConfig& config);
+
+/// The network's plane depth for what was drawn of a batch. @returns [B,1,H,W] float32, metres
+torch::Tensor predict(DepthCompletionNet net, const Batch& batch, const NetworkInput& input);
+
+/// What the losses see of it.
+LossInputs loss_inputs(const Batch& batch, const NetworkInput& input, const torch::Tensor& prediction_m);
+
+}  // namespace alight
