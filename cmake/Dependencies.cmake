@@ -65,6 +65,15 @@ if(ALIGHT_WITH_TORCH)
   target_link_libraries(alight_torch_pch PRIVATE alight_torch)
   target_compile_options(alight_torch_pch PRIVATE ${ALIGHT_PCH_OPTIONS})
   target_precompile_headers(alight_torch_pch PRIVATE <torch/torch.h> <torch/script.h>)
+
+  # The very library that LibTorch links: ONNX's message types may be registered once in a process.
+  find_path(ONNX_INCLUDE_DIR onnx/onnx_pb.h REQUIRED)
+  find_library(ONNX_PROTO_LIBRARY onnx_proto REQUIRED)
+  find_library(PROTOBUF_LIBRARY protobuf REQUIRED)
+  add_library(alight_onnx INTERFACE)
+  target_include_directories(alight_onnx SYSTEM INTERFACE ${ONNX_INCLUDE_DIR})
+  target_compile_definitions(alight_onnx INTERFACE ONNX_NAMESPACE=onnx ONNX_ML=1)
+  target_link_libraries(alight_onnx INTERFACE ${ONNX_PROTO_LIBRARY} ${PROTOBUF_LIBRARY})
 endif()
 
 if(ALIGHT_WITH_TESTS)

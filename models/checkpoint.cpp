@@ -144,6 +144,19 @@ void assign_weights(Reader& reader, const char* key, DepthCompletionNet net) {
   }
 }
 
+/// The weights of the encoder's first layer; `file` may have fewer input channels.
+void assign_first_convolution(const Reader& reader, const TensorDict& file, const std::string& name,
+                              const torch::Tensor& target) {
+  const auto found = file.find(name);
+  torch::Tensor seen = target;
+  if (found != file.end() && found->value().dim() == 4 && found->value().size(1) < target.size(1)) {
+    seen = target.narrow(1, 0, found->value().size(1));
+    torch::NoGradGuard no_grad;
+    target.detach().zero_();
+  }
+  assign(reader, file, name, seen.detach());
+}
+
 void assign_adam(Reader& reader, DepthCompletionNet net, torch::optim::Adam& adam) {
   const TensorDict file = reader.tensors("adam");
   if (file.size() == 0) reader.fail("holds no training state; a run is resumed from its last.pt");
@@ -213,6 +226,27 @@ CheckpointInfo load_training(const fs::path& path, DepthCompletionNet net, const
   if (training.net.ptr() != net.ptr()) assign_weights(reader, "training_weights", training.net);
   assign_adam(reader, training.net, *training.adam);
   return reader.info();
+}
+
+void load_image_encoder(const fs::path& path, DepthCompletionNet net) {
+  const std::string prefix = "image_encoder.";
+  const auto in_encoder = [&](const std::string& name) { return name.rfind(prefix, 0) == 0; };
+  Reader reader(path);
+  const TensorDict file = reader.tensors("weights");
+  const TensorDict targets = named_tensors(net);
+  for (const auto& item : file) {
+    if (in_encoder(item.key()) && !targets.contains(item.key())) {
+      reader.fail("another image encoder: the network has no tensor " + item.key() +
+                  "; compare stem and normalization in the model sections");
+    }
+  }
+  const auto copy = [&](const std::string& name, const torch::Tensor& target) {
+    if (!in_encoder(name)) return;
+    if (name == prefix + "stem.conv.weight") return assign_first_convolution(reader, file, name, target);
+    assign(reader, file, name, target);
+  };
+  for (const auto& item : net->named_parameters()) copy(item.key(), item.value());
+  for (const auto& item : net->named_buffers()) copy(item.key(), item.value());
 }
 
 }  // namespace alight

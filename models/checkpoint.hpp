@@ -61,4 +61,10 @@ CheckpointInfo load_checkpoint(const std::filesystem::path& path, DepthCompletio
 CheckpointInfo load_training(const std::filesystem::path& path, DepthCompletionNet net,
                              const TrainingState& training);
 
+/// Copies an image encoder's weights into a network before its training: from another checkpoint, or from what
+/// scripts/convert_resnet18.py makes of torchvision's ResNet-18. An encoder that saw fewer channels (no stereo) starts
+/// with weights of 0 for those that the network sees besides.
+/// @throws DataError as load_network, and if the encoders differ: names the first tensor and both shapes
+void load_image_encoder(const std::filesystem::path& path, DepthCompletionNet net);
+
 }  // namespace alight

@@ -13,21 +13,6 @@ namespace {
 namespace F = torch::nn::functional;
 constexpr std::size_t kStages = 4;
 constexpr std::size_t kDecoderLevels = 5;
-// Natural logarithms: a roof at a seventh of the flight's height is as far as the prior is corrected.
-constexpr double kLargestPriorCorrection = 2.0;
-constexpr double kLargestFillCorrection = 0.5;
-// Channels of the `filled` depth input.
-constexpr std::int64_t kValid = 1;
-constexpr std::int64_t kFill = 2;
-constexpr std::int64_t kPrior = 4;
-
-int depth_channels(DepthInput input) {
-  return input == DepthInput::kRaw ? 1 : input == DepthInput::kMasked ? 2 : 5;
-}
-
-int image_channels(const DepthCompletionConfig& c) {
-  return 3 + (c.stereo ? static_cast<int>(kStereoCueChannels) : 0);
-}
 
 bool all_positive(const std::vector<int>& widths) {
   return std::all_of(widths.begin(), widths.end(), [](int width) { return width > 0; });
@@ -90,14 +75,29 @@ torch::Tensor known_prior(const torch::Tensor& prior_m, const torch::Tensor& lik
   return torch::where(prior_m > 0, prior_m.clamp(c.min_depth_m, c.max_depth_m), scale);
 }
 
+std::vector<torch::Tensor> pyramid(const torch::Tensor& input, const std::vector<torch::Tensor>& features) {
+  std::vector<torch::Tensor> maps{input};
+  maps.insert(maps.end(), features.begin(), features.end());
+  return maps;
+}
+
 }  // namespace
+
+int depth_channels(DepthInput input) {
+  return input == DepthInput::kRaw ? 1 : input == DepthInput::kMasked ? 2 : 5;
+}
+
+int image_channels(const DepthCompletionConfig& c) {
+  return 3 + (c.stereo ? static_cast<int>(kStereoCueChannels) : 0);
+}
 
 void bind(Binder& b, DepthCompletionConfig& c) {
   b.choice("stem", c.stem, {{"downsample", Stem::kDownsample}, {"full", Stem::kFull}},
            "first layer: stride 2 and pooling, or full resolution");
-  b.choice("normalization", c.normalization,
-           {{"batch", Normalization::kBatch}, {"group", Normalization::kGroup}},
-           "normalisation after every convolution");
+  b.choice(
+      "normalization", c.normalization,
+      {{"batch", Normalization::kBatch}, {"group", Normalization::kGroup}, {"none", Normalization::kNone}},
+      "normalisation after every convolution");
   b.choice("fusion", c.fusion, {{"concatenate", Fusion::kConcatenate}, {"sum", Fusion::kSum}},
            "how image and depth features meet at every scale of the decoder");
   b.field("image_widths", c.image_widths, "channels of the image encoder's four stages");
@@ -186,21 +186,25 @@ torch::Tensor DepthCompletionNetImpl::depth_input(const torch::Tensor& sparse_m,
   return torch::cat({relative, valid, fill.value, fill.coarseness, (prior / config_.depth_scale_m).log()}, 1);
 }
 
+std::vector<torch::Tensor> DepthCompletionNetImpl::image_features(const torch::Tensor& image_input) {
+  check_shape(image_input, image_channels(config_), "image_input [B,C,H,W]");
+  return image_encoder_->forward(pad(image_input, encoder_stride(config_.stem), true));
+}
+
+std::vector<torch::Tensor> DepthCompletionNetImpl::depth_features(const torch::Tensor& depth_input) {
+  check_shape(depth_input, depth_channels(config_.depth_input), "depth_input [B,C,H,W]");
+  return depth_encoder_->forward(pad(depth_input, encoder_stride(config_.stem), false));
+}
+
 std::vector<torch::Tensor> DepthCompletionNetImpl::encode_image(const SceneView& view) {
-  std::vector<torch::Tensor> pyramid{image_input(view)};  // [B,C,H,W]
-  for (torch::Tensor& map : image_encoder_->forward(pad(pyramid[0], encoder_stride(config_.stem), true))) {
-    pyramid.push_back(std::move(map));
-  }
-  return pyramid;
+  const torch::Tensor input = image_input(view);  // [B,C,H,W]
+  return pyramid(input, image_features(input));
 }
 
 std::vector<torch::Tensor> DepthCompletionNetImpl::encode_depth(const torch::Tensor& sparse_m,
                                                                 const torch::Tensor& prior_m) {
-  std::vector<torch::Tensor> pyramid{depth_input(sparse_m, prior_m)};  // [B,C,H,W]
-  for (torch::Tensor& map : depth_encoder_->forward(pad(pyramid[0], encoder_stride(config_.stem), false))) {
-    pyramid.push_back(std::move(map));
-  }
-  return pyramid;
+  const torch::Tensor input = depth_input(sparse_m, prior_m);  // [B,C,H,W]
+  return pyramid(input, depth_features(input));
 }
 
 torch::Tensor DepthCompletionNetImpl::decode(const std::vector<torch::Tensor>& image_pyramid,
@@ -236,13 +240,13 @@ torch::Tensor DepthCompletionNetImpl::to_depth(const torch::Tensor& raw,
            torch::exp(torch::sigmoid(raw) * std::log(config_.max_depth_m / config_.min_depth_m));
   }
   const torch::Tensor any =
-      depth_input.narrow(1, kValid, 1).amax({2, 3}, /*keepdim=*/true);  // [B,1,1,1] 0 or 1
+      depth_input.narrow(1, filled_input::kValid, 1).amax({2, 3}, /*keepdim=*/true);  // [B,1,1,1] 0 or 1
   const torch::Tensor gate = torch::sigmoid(raw.narrow(1, 1, 1)) * any;
   const torch::Tensor from_prior = kLargestPriorCorrection * torch::tanh(raw.narrow(1, 0, 1));
-  const torch::Tensor from_fill =
-      depth_input.narrow(1, kFill, 1) + kLargestFillCorrection * torch::tanh(raw.narrow(1, 2, 1));
+  const torch::Tensor from_fill = depth_input.narrow(1, filled_input::kFill, 1) +
+                                  kLargestFillCorrection * torch::tanh(raw.narrow(1, 2, 1));
   const torch::Tensor relative = from_prior + gate * (from_fill - from_prior);
-  return (config_.depth_scale_m * torch::exp(depth_input.narrow(1, kPrior, 1) + relative))
+  return (config_.depth_scale_m * torch::exp(depth_input.narrow(1, filled_input::kPrior, 1) + relative))
       .clamp(config_.min_depth_m, config_.max_depth_m);
 }
 

@@ -52,6 +52,21 @@ struct DepthCompletionConfig {
 };
 void bind(Binder& b, DepthCompletionConfig& c);
 
+/// Channels of the two normalised inputs.
+int image_channels(const DepthCompletionConfig& config);
+int depth_channels(DepthInput input);
+
+/// Channels of the `filled` depth input, counted from 0.
+namespace filled_input {
+constexpr std::int64_t kValid = 1;
+constexpr std::int64_t kFill = 2;
+constexpr std::int64_t kPrior = 4;
+}  // namespace filled_input
+
+/// How far the gated head corrects, natural logarithms: a roof at a seventh of the flight's height is the limit.
+constexpr double kLargestPriorCorrection = 2.0;
+constexpr double kLargestFillCorrection = 0.5;
+
 /// ResNet-18 encoder-decoder for depth completion (paper 3.2; METHOD, "Network"). Image and sparse depth are
 /// encoded separately, so that an image is encoded once and only the depth branch and the decoder run again
 /// as points arrive:
@@ -81,14 +96,19 @@ class DepthCompletionNetImpl : public torch::nn::Module {
   torch::Tensor decode(const std::vector<torch::Tensor>& image_pyramid,
                        const std::vector<torch::Tensor>& depth_pyramid);
 
+  /// The two encoders in steps: arithmetic without parameters makes the normalised input [B,C,H,W], then the learned
+  /// part makes its five maps, fine to coarse. A pyramid is the one followed by the others.
+  torch::Tensor image_input(const SceneView& view) const;
+  torch::Tensor depth_input(const torch::Tensor& sparse_m, const torch::Tensor& prior_m = {}) const;
+  std::vector<torch::Tensor> image_features(const torch::Tensor& image_input);
+  std::vector<torch::Tensor> depth_features(const torch::Tensor& depth_input);
+
   /// decode(encode_image(view), encode_depth(sparse_m, view.prior_m))
   torch::Tensor forward(const SceneView& view, const torch::Tensor& sparse_m);
 
   const DepthCompletionConfig& config() const { return config_; }
 
  private:
-  torch::Tensor image_input(const SceneView& view) const;
-  torch::Tensor depth_input(const torch::Tensor& sparse_m, const torch::Tensor& prior_m) const;
   torch::Tensor to_depth(const torch::Tensor& raw, const torch::Tensor& depth_input) const;
 
   DepthCompletionConfig config_;

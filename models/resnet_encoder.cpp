@@ -1,6 +1,5 @@
 #include "models/resnet_encoder.hpp"
 
-#include <cstdint>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -9,13 +8,13 @@ namespace alight {
 namespace {
 
 constexpr std::size_t kStages = 4;
-constexpr int kLargestGroupCount = 8;
+constexpr std::int64_t kLargestGroupCount = 8;
 
 /// torch::nn::GroupNorm on contiguous memory: the channels-last kernel of LibTorch 1.13 writes out of bounds.
 class ContiguousGroupNormImpl : public torch::nn::Module {
  public:
   explicit ContiguousGroupNormImpl(int channels)
-      : groups_(std::gcd(channels, kLargestGroupCount)),
+      : groups_(group_count(channels)),
         weight_(register_parameter("weight", torch::ones({channels}))),
         bias_(register_parameter("bias", torch::zeros({channels}))) {}
   torch::Tensor forward(const torch::Tensor& x) {
@@ -41,6 +40,8 @@ torch::nn::Sequential make_stem(int in_channels, int width, Stem stem, Normaliza
 
 }  // namespace
 
+std::int64_t group_count(std::int64_t channels) { return std::gcd(channels, kLargestGroupCount); }
+
 int encoder_stride(Stem stem) { return stem == Stem::kDownsample ? 32 : 8; }
 
 torch::nn::Sequential conv_block(int in_channels, int out_channels, int kernel, int stride,
@@ -50,13 +51,13 @@ torch::nn::Sequential conv_block(int in_channels, int out_channels, int kernel, 
   const auto options = torch::nn::Conv2dOptions(in_channels, out_channels, kernel)
                            .stride(stride)
                            .padding(kernel / 2)
-                           .bias(false);
+                           .bias(normalization == Normalization::kNone);
   torch::nn::Conv2d conv(options);
   torch::nn::init::kaiming_normal_(conv->weight, 0.0, torch::kFanOut, torch::kReLU);
   block->push_back("conv", conv);
   if (normalization == Normalization::kBatch) {
     block->push_back("norm", torch::nn::BatchNorm2d(out_channels));
-  } else {
+  } else if (normalization == Normalization::kGroup) {
     block->push_back("norm", ContiguousGroupNorm(out_channels));
   }
   if (relu) block->push_back("relu", torch::nn::ReLU(torch::nn::ReLUOptions(true)));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <torch/torch.h>
@@ -11,10 +12,14 @@ namespace alight {
 enum class Stem { kDownsample, kFull };
 
 /// `batch`: batch normalisation, folds into the convolutions for inference. `group`: group normalisation,
-/// computes the same in training and inference whatever the batch holds.
-enum class Normalization { kBatch, kGroup };
+/// computes the same in training and inference whatever the batch holds. `none`: a bias in its place; what folding
+/// leaves behind (models/fold_batch_norm.hpp).
+enum class Normalization { kBatch, kGroup, kNone };
 
-/// A convolution followed by normalisation and, if `relu`, a rectifier.
+/// Groups of a `group` normalisation over so many channels.
+std::int64_t group_count(std::int64_t channels);
+
+/// A convolution ("conv") followed by normalisation ("norm") and, if `relu`, a rectifier ("relu").
 torch::nn::Sequential conv_block(int in_channels, int out_channels, int kernel, int stride,
                                  Normalization normalization, bool relu = true);
 

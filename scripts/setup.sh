@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Alight needs from Debian 12's package archive. Safe to run again; needs root or sudo.
+#   scripts/setup.sh          what the build and the tests need
+#   scripts/setup.sh --full   and what the comparisons with LibTorch's Python side need (skipped without it)
 set -euo pipefail
 
 packages=(
@@ -7,12 +9,19 @@ packages=(
   clang-14 lld-14 libomp-14-dev clang-format-14 cmake ninja-build ccache git ca-certificates pkg-config
   # libraries
   libtorch-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libcli11-dev
-  nlohmann-json3-dev libgeographiclib-dev libembree-dev libtbb-dev
+  nlohmann-json3-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
   # ROS 1 logs
   librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev
   # tests and benchmarks
-  libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag
+  libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag python3-venv
 )
+full_packages=(python3-torch)
+
+case "${1:-}" in
+  "") ;;
+  --full) packages+=("${full_packages[@]}") ;;
+  *) echo "usage: scripts/setup.sh [--full]" >&2; exit 2 ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

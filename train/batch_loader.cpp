@@ -27,7 +27,7 @@ std::int64_t place(double share, std::int64_t room) {
 
 BatchLoader::BatchLoader(SampleCache& cache, const BatchLoaderOptions& options, int epoch,
                          std::size_t first_batch)
-    : cache_(cache), options_(options), started_(first_batch) {
+    : cache_(cache), options_(options), epoch_(epoch), started_(first_batch) {
   const auto batch_size = static_cast<std::size_t>(options.batch_size);
   if (cache.size() < batch_size) {
     throw DataError("the training flights have " + std::to_string(cache.size()) +
@@ -56,7 +56,8 @@ BatchLoader::BatchLoader(SampleCache& cache, const BatchLoaderOptions& options, 
   }
 }
 
-Batch BatchLoader::load(const std::vector<Item>& items) const {
+Batch BatchLoader::load(std::size_t number) const {
+  const std::vector<Item>& items = plan_[number];
   std::vector<std::shared_ptr<const CompactSample>> samples;
   for (const Item& item : items) samples.push_back(cache_.get(item.sample));
   const std::int64_t height = options_.crop_px ? *options_.crop_px : samples.front()->height_px;
@@ -66,12 +67,14 @@ Batch BatchLoader::load(const std::vector<Item>& items) const {
     origins.push_back({place(items[i].row_share, samples[i]->height_px - height),
                        place(items[i].column_share, samples[i]->width_px - width)});
   }
-  return stack(samples, origins, height, width);
+  const auto batches_before = static_cast<std::int64_t>(epoch_) * static_cast<std::int64_t>(plan_.size());
+  return augment(stack(samples, origins, height, width), options_.augmentation,
+                 {options_.seed, batches_before + static_cast<std::int64_t>(number), 0});
 }
 
 void BatchLoader::start_more() {
   while (started_ < plan_.size() && pending_.size() < static_cast<std::size_t>(options_.workers)) {
-    pending_.push_back(std::async(std::launch::async, [this, step = started_] { return load(plan_[step]); }));
+    pending_.push_back(std::async(std::launch::async, [this, step = started_] { return load(step); }));
     ++started_;
   }
 }

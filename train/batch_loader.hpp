@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "train/augmentation.hpp"
 #include "train/batch.hpp"
 
 namespace alight {
@@ -16,10 +17,11 @@ struct BatchLoaderOptions {
   std::optional<int> crop_px;  ///< side of a random square cut-out; none: whole images
   int workers = 1;             ///< batches prepared ahead, each in a thread of its own
   std::uint64_t seed = 0;
+  AugmentationConfig augmentation;
 };
 
 /// The batches of one epoch: every sample once in random order (again and again where `steps` asks for more),
-/// prepared in the background. Order and cut-outs depend on seed and epoch alone, not on threads.
+/// prepared in the background. Order, cut-outs and augmentation depend on seed and epoch alone, not on threads.
 class BatchLoader {
  public:
   /// @param first_batch batches before it are left out: what a resumed run has behind it
@@ -35,11 +37,12 @@ class BatchLoader {
     double row_share, column_share;  // where in the room left the cut-out lies, 0..1
   };
 
-  Batch load(const std::vector<Item>& items) const;
+  Batch load(std::size_t number) const;
   void start_more();
 
   SampleCache& cache_;
   BatchLoaderOptions options_;
+  int epoch_;
   std::vector<std::vector<Item>> plan_;
   std::size_t started_ = 0;
   std::deque<std::future<Batch>> pending_;

@@ -6,18 +6,6 @@
 namespace alight {
 namespace {
 
-/// SplitMix64 (Steele et al. 2014) over the three numbers: neighbouring keys give unrelated seeds.
-std::uint64_t mixed(std::uint64_t seed, std::uint64_t step, std::uint64_t place) {
-  std::uint64_t state = seed;
-  for (const std::uint64_t number : {step, place}) {
-    state += 0x9E3779B97F4A7C15ULL * (number + 1);
-    state = (state ^ (state >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-    state = (state ^ (state >> 27U)) * 0x94D049BB133111EBULL;
-    state ^= state >> 31U;
-  }
-  return state;
-}
-
 /// What is drawn for one sample.
 struct Lot {
   bool lidar, image, right, height, window;
@@ -91,14 +79,13 @@ NetworkInput sample_density(const torch::Tensor& image, const torch::Tensor& rig
       sparse_m.sizes() != offset_s.sizes()) {
     throw std::invalid_argument("sample_density: expected images [B,3,H,W], sparse and offset [B,1,H,W]");
   }
-  const auto step = static_cast<std::uint64_t>(key.step);
-  torch::Generator of_batch = at::detail::createCPUGenerator(mixed(key.seed, step, 0));
+  torch::Generator of_batch = at::detail::createCPUGenerator(mixed_seed(key.seed, key.step, 0));
   const Lot lot_of_batch = draw(config, of_batch);
   NetworkInput input{image.clone(), right.clone(), torch::empty_like(sparse_m),
                      torch::ones({image.size(0)}, image.options().dtype(torch::kBool))};
   for (std::int64_t i = 0; i < image.size(0); ++i) {
     torch::Generator of_sample =
-        at::detail::createCPUGenerator(mixed(key.seed, step, static_cast<std::uint64_t>(key.first + i + 1)));
+        at::detail::createCPUGenerator(mixed_seed(key.seed, key.step, key.first + i + 1));
     const Lot lot = config.draw == DensityDraw::kBatch ? lot_of_batch : draw(config, of_sample);
     input.sparse_m[i].copy_(feed(sparse_m[i], offset_s[i], lot, of_sample));
     if (!lot.image) input.image[i].zero_();

@@ -3,6 +3,7 @@
 #include <torch/torch.h>
 
 #include "configs/config_reader.hpp"
+#include "train/draw_key.hpp"
 
 namespace alight {
 
@@ -31,14 +32,6 @@ struct DensitySamplingConfig {
   double no_height_probability = 0;  ///< the vehicle's height
 };
 void bind(Binder& b, DensitySamplingConfig& c);
-
-/// Where a draw stands in a run. The same numbers draw the same, whatever was drawn before, so that a run that is
-/// resumed or shared by several processes draws what an undivided one does.
-struct DrawKey {
-  std::uint64_t seed = 0;
-  std::int64_t step = 0;
-  std::int64_t first = 0;  ///< place in the whole batch of the first sample that is given
-};
 
 /// What the network is fed.
 struct NetworkInput {

@@ -6,6 +6,7 @@
 
 #include "cli/command_line.hpp"
 #include "models/network_summary.hpp"
+#include "train/plot_command.hpp"
 #include "train/run_folder.hpp"
 #include "train/train_config.hpp"
 #include "train/trainer.hpp"
@@ -20,7 +21,8 @@ constexpr const char* kExamples =
     "  alight-train --config configs/train/demo.yaml --output runs/longer --set train.epochs=30\n"
     "  alight-train --resume runs/demo\n"
     "  alight-train --config configs/train/paper.yaml --print-model\n"
-    "  alight-train --config configs/train/paper.yaml --print-config\n";
+    "  alight-train --config configs/train/paper.yaml --print-config\n"
+    "  alight-train plot runs/demo runs/longer --output curves.png\n";
 
 struct Options {
   ConfigOptions config;
@@ -105,5 +107,7 @@ int main(int argc, char** argv) {
   CLI::App app("alight-train: learns depth completion from a data set of alight-dataset");
   Options options;
   add_options(app, options);
-  return run_tool(app, argc, argv, [&] { return run(options); });
+  PlotCommand plot;
+  CLI::App* plot_app = add_plot_command(app, plot);
+  return run_tool(app, argc, argv, [&] { return plot_app->parsed() ? run_plot(plot) : run(options); });
 }

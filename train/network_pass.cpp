@@ -24,10 +24,11 @@ torch::Tensor predict(DepthCompletionNet net, const Batch& batch, const NetworkI
   return from_network_depth(net->forward(view, sparse), batch.intrinsics_px, config.depth_kind);
 }
 
-LossInputs loss_inputs(const Batch& batch, const NetworkInput& input, const torch::Tensor& prediction_m) {
+LossInputs loss_inputs(const Batch& batch, const NetworkInput& input, const torch::Tensor& prediction_m,
+                       const torch::Tensor& ground_truth_m) {
   LossInputs inputs;
   inputs.prediction_m = prediction_m;
-  inputs.ground_truth_m = batch.sparse_m;
+  inputs.ground_truth_m = ground_truth_m;
   inputs.input_m = input.sparse_m;
   inputs.left = batch.left;
   inputs.previous = batch.previous;

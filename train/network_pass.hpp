@@ -15,7 +15,8 @@ SceneView scene_view(const Batch& batch, const torch::Tensor& image, const torch
 /// The network's plane depth for what was drawn of a batch. @returns [B,1,H,W] float32, metres
 torch::Tensor predict(DepthCompletionNet net, const Batch& batch, const NetworkInput& input);
 
-/// What the losses see of it.
-LossInputs loss_inputs(const Batch& batch, const NetworkInput& input, const torch::Tensor& prediction_m);
+/// What the losses see of it. @param ground_truth_m [B,1,H,W] the points of the full window that are trusted
+LossInputs loss_inputs(const Batch& batch, const NetworkInput& input, const torch::Tensor& prediction_m,
+                       const torch::Tensor& ground_truth_m);
 
 }  // namespace alight

@@ -24,12 +24,16 @@ void bind(Binder& b, TrainConfig& c) {
   b.section("split", c.split, "what is learned from and what only judges");
   b.section("model", c.model, "network");
   b.section("loss", c.loss, "what is minimised");
+  b.section("occlusion_filter", c.occlusion_filter, "which ground truth points are trusted");
+  b.section("augmentation", c.augmentation, "other looks of the same samples");
   b.section("density", c.density, "what is fed of the LiDAR points");
   b.section("optimizer", c.optimizer, "how the weights move");
   b.section("schedule", c.schedule, "how the learning rate changes");
   b.section("compute", c.compute, "device and numbers");
   b.section("train", c.train, "loop");
   b.section("validation", c.validation, "after every epoch, on what is held out");
+  b.check("augmentation", c.augmentation.quarter_turn_probability <= 0 || c.train.crop_px,
+          "quarter turns need square images; set train.crop_px");
   const TrainingLossConfig& l = c.loss;
   b.check("loss", l.depth_weight + l.ratio_weight + l.photometric_weight + l.smoothness_weight > 0,
           "all weights are 0; give one term a weight");

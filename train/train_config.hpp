@@ -7,8 +7,10 @@
 #include "configs/config_reader.hpp"
 #include "losses/training_loss.hpp"
 #include "models/depth_completion_net.hpp"
+#include "train/augmentation.hpp"
 #include "train/compute.hpp"
 #include "train/density_sampling.hpp"
+#include "train/occlusion_filter.hpp"
 #include "train/optimizer.hpp"
 #include "train/schedule.hpp"
 #include "train/split.hpp"
@@ -37,6 +39,8 @@ struct TrainConfig {
   SplitConfig split;
   DepthCompletionConfig model;
   TrainingLossConfig loss;
+  OcclusionFilterConfig occlusion_filter;
+  AugmentationConfig augmentation;
   DensitySamplingConfig density;
   OptimizerConfig optimizer;
   ScheduleConfig schedule;

@@ -84,7 +84,8 @@ void Trainer::resume() {
 BatchLoader Trainer::loader(int epoch, std::size_t first_batch) {
   const TrainingLoopConfig& c = config_.train;
   return {cache_,
-          {c.batch_size, c.steps_per_epoch, c.crop_px, c.workers, static_cast<std::uint64_t>(c.seed)},
+          {c.batch_size, c.steps_per_epoch, c.crop_px, c.workers, static_cast<std::uint64_t>(c.seed),
+           config_.augmentation},
           epoch,
           first_batch};
 }
@@ -103,7 +104,9 @@ LossTerms Trainer::losses_of(const Batch& batch, std::int64_t place) {
     const PrecisionScope scope(config_.compute.precision, device_);
     prediction_m = predict(net_, batch, input);
   }
-  return TrainingLoss(config_.loss)(loss_inputs(batch, input, prediction_m));
+  const torch::Tensor ground_truth_m =
+      drop_hidden_points(batch.sparse_m, batch.offset_s, config_.occlusion_filter);
+  return TrainingLoss(config_.loss)(loss_inputs(batch, input, prediction_m, ground_truth_m));
 }
 
 void Trainer::check_finite(const LossTerms& terms, const Batch& batch) const {

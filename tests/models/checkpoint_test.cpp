@@ -189,6 +189,52 @@ TEST_F(Checkpoint, OtherVersionsAreRefused) {
   }
 }
 
+torch::Tensor first_convolution(DepthCompletionNet net) {
+  return net->named_parameters()["image_encoder.stem.conv.weight"];
+}
+
+TEST_F(Checkpoint, ImageEncoderAloneIsTakenFromAnotherNetwork) {
+  DepthCompletionNet source = test::random_net(tiny_config());
+  save_checkpoint(folder_ / "net.pt", source);
+  DepthCompletionConfig config = test::tiny_paper_config();
+  config.decoder_widths = {4, 4, 4, 4, 4};
+  DepthCompletionNet net(config);
+  const torch::Tensor depth_encoder = net->named_parameters()["depth_encoder.stem.conv.weight"].clone();
+  load_image_encoder(folder_ / "net.pt", net);
+  net->eval();
+  torch::NoGradGuard no_grad;
+  const torch::Tensor image = torch::rand({1, 3, 40, 56});
+  const auto expected = source->image_features(image);
+  const auto features = net->image_features(image);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_TRUE(torch::equal(features[i], expected[i])) << i;
+  EXPECT_TRUE(torch::equal(net->named_parameters()["depth_encoder.stem.conv.weight"], depth_encoder));
+}
+
+TEST_F(Checkpoint, ImageEncoderStartsWithNothingOnTheChannelsItNeverSaw) {
+  DepthCompletionNet source(tiny_config());
+  save_checkpoint(folder_ / "net.pt", source);
+  DepthCompletionNet stereo(test::tiny_shipped_config());
+  load_image_encoder(folder_ / "net.pt", stereo);
+  const torch::Tensor weight = first_convolution(stereo);
+  EXPECT_TRUE(torch::equal(weight.narrow(1, 0, 3), first_convolution(source)));
+  EXPECT_EQ(weight.narrow(1, 3, weight.size(1) - 3).abs().max().item<float>(), 0);
+  EXPECT_TRUE(weight.requires_grad());
+}
+
+TEST_F(Checkpoint, ImageEncoderThatDoesNotFitIsRefused) {
+  save_checkpoint(folder_ / "net.pt", DepthCompletionNet(test::tiny_shipped_config()));
+  DepthCompletionNet left_only(tiny_config());
+  EXPECT_THAT(
+      data_error([&] { load_image_encoder(folder_ / "net.pt", left_only); }),
+      HasSubstr("image_encoder.stem.conv.weight is [4, 9, 7, 7] in the file, [4, 3, 7, 7] in this network"));
+  DepthCompletionConfig group = test::tiny_shipped_config();
+  group.normalization = Normalization::kGroup;
+  EXPECT_THAT(data_error([&] { load_image_encoder(folder_ / "net.pt", DepthCompletionNet(group)); }),
+              HasSubstr("the network has no tensor image_encoder.stem.norm.running_mean"));
+  EXPECT_THAT(data_error([&] { load_image_encoder(folder_ / "none.pt", left_only); }),
+              HasSubstr("no such file"));
+}
+
 TEST_F(Checkpoint, UnwritableFolderIsADataError) {
   DepthCompletionNet net(tiny_config());
   EXPECT_THROW(save_checkpoint(folder_ / "absent" / "net.pt", net), DataError);

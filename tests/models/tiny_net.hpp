@@ -13,6 +13,25 @@ inline DepthCompletionConfig tiny_config() {
   return config;
 }
 
+/// The smallest with all that the shipped network has: both eyes, the flight's height, a layer on the inputs.
+inline DepthCompletionConfig tiny_shipped_config() {
+  DepthCompletionConfig config = tiny_config();
+  config.prior = Prior::kAltitude;
+  config.stereo = true;
+  config.detail_width = 4;
+  config.fill_smoothing = 2;
+  return config;
+}
+
+/// The paper's network at small widths.
+inline DepthCompletionConfig tiny_paper_config() {
+  DepthCompletionConfig config = tiny_config();
+  config.depth_input = DepthInput::kRaw;
+  config.head = Head::kDirect;
+  config.depth_kind = DepthKind::kPerspective;
+  return config;
+}
+
 /// Depth of 5..25 m at about a fifth of the pixels. @returns [batch,1,height,width]
 inline torch::Tensor random_sparse_m(std::int64_t batch, std::int64_t height, std::int64_t width) {
   const torch::Tensor depth_m = 5 + 20 * torch::rand({batch, 1, height, width});
@@ -25,6 +44,23 @@ inline SceneView random_view(std::int64_t batch, std::int64_t height, std::int64
   view.prior_m = 5 + 20 * torch::rand({batch, 1, height, width});
   view.focal_baseline_px_m = torch::full({batch}, 35.0);
   return view;
+}
+
+/// A network in eval mode that, other than a new one, has no parameter or running statistic at its starting value, and
+/// whose depth depends on all of them strongly.
+inline DepthCompletionNet random_net(const DepthCompletionConfig& config) {
+  torch::manual_seed(11);
+  DepthCompletionNet net(config);
+  torch::NoGradGuard no_grad;
+  for (auto& item : net->named_parameters()) {
+    const bool norm = item.key().find(".norm.") != std::string::npos;
+    if (norm) item.value().add_(0.3 * torch::randn_like(item.value()));
+    if (item.key() == "head.weight") item.value().mul_(5);
+    if (item.key() == "head.bias") item.value().add_(0.2 * torch::randn_like(item.value()));
+  }
+  for (int i = 0; i < 20; ++i) net->forward(random_view(2, 64, 64), random_sparse_m(2, 64, 64));
+  net->eval();
+  return net;
 }
 
 }  // namespace alight::test

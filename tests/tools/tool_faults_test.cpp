@@ -172,6 +172,38 @@ TEST_F(LogFaults, CheckpointThatIsNone) {
                  folder_ / "out");
 }
 
+TEST(TrainPlotFaults, DamagedMetricsNameFileAndLine) {
+  const fs::path folder = test_folder();
+  write_file(folder / "metrics.csv", "epoch,total\n1,0.5\n2,0.\x01\n");
+  const fs::path png = folder / "curves.png";
+  expect_refused("alight-train plot " + folder.string() + " --output " + png.string(), 1,
+                 {"metrics.csv:3", "total", "a number"}, png);
+}
+
+class ExportTool : public LogFaults {};
+
+TEST_F(ExportTool, RefusesWhatIsNoNetworkAndUnknownFormats) {
+  const std::string command = "alight-export --checkpoint " + (folder_ / "net.pt").string() + " --output ";
+  expect_refused(command + (folder_ / "net.tflite").string(), 2, {"net.tflite", ".onnx", ".torchscript"},
+                 folder_ / "net.tflite");
+  expect_refused(command + (folder_ / "absent" / "net.onnx").string(), 1, {"net.onnx", "cannot be written"},
+                 folder_ / "absent");
+  expect_refused(command + (folder_ / "net.onnx").string() + " --graph half", 2, {"half"},
+                 folder_ / "net.onnx");
+  write_file(folder_ / "net.pt", "no network");
+  expect_refused(command + (folder_ / "net.onnx").string(), 1, {"net.pt"}, folder_ / "net.onnx");
+}
+
+TEST_F(ExportTool, WritesTheWholeAndItsHalvesAndSaysSo) {
+  const ToolRun run = run_tool("alight-export --checkpoint " + (folder_ / "net.pt").string() + " --output " +
+                               (folder_ / "net.onnx").string() + " --size 75 45");
+  EXPECT_EQ(run.exit_code, 0) << run.out;
+  for (const char* name : {"net.onnx", "net.image_encoder.onnx", "net.refinement.onnx"}) {
+    EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+    EXPECT_THAT(run.out, HasSubstr(std::string(name) + " (75 x 45 px)"));
+  }
+}
+
 /// A file whose weights are another network's than its stated architecture.
 TEST_F(LogFaults, CheckpointOfAnotherNetwork) {
   DepthCompletionConfig wider = small_network();

@@ -31,7 +31,20 @@ TEST_P(EveryTool, VersionIsPrinted) {
 
 INSTANTIATE_TEST_SUITE_P(Tools, EveryTool,
                          ::testing::Values("alight-sim", "alight-dataset", "alight-train", "alight-evaluate",
-                                           "alight-evaluate depth", "alight-infer"));
+                                           "alight-evaluate depth", "alight-export", "alight-infer"));
+
+TEST(TrainPlot, HelpShowsAnExample) {
+  const ToolRun run = run_tool("alight-train plot --help");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("alight-train plot runs/demo"));
+}
+
+TEST(TrainPlot, UsageErrors) {
+  EXPECT_EQ(run_tool("alight-train plot --output a.png").exit_code, 2);
+  EXPECT_EQ(run_tool("alight-train plot runs/demo").exit_code, 2);
+  EXPECT_EQ(run_tool("alight-train plot runs/demo --output a.jpg").exit_code, 2);
+  EXPECT_EQ(run_tool("alight-train plot runs/demo --output a.png --no-such-flag").exit_code, 2);
+}
 
 class ShippedConfig : public ::testing::TestWithParam<const char*> {};
 

@@ -1,6 +1,11 @@
+#include <map>
+#include <string>
+
 #include "train/evaluation/commands.hpp"
 
 namespace {
+
+using alight::EvaluatedPart;
 
 void add_evaluate_options(CLI::App& app, alight::EvaluateOptions& options) {
   alight::add_config_options(app, options.config);
@@ -10,6 +15,13 @@ void add_evaluate_options(CLI::App& app, alight::EvaluateOptions& options) {
   app.add_option("-d,--data", options.data, "Data set of alight-dataset build");
   app.add_option("-o,--output", options.output, "Table to write: .md, .csv or .json");
   app.add_option("--flights", options.flights, "Only these flights, comma-separated")->delimiter(',');
+  app.add_option("--split", options.split, "Take the split of this configuration of alight-train");
+  app.add_option("--part", options.part, "Which part of the split: all, training, held_out or unknown")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, EvaluatedPart>{{"all", EvaluatedPart::kAll},
+                                               {"training", EvaluatedPart::kTraining},
+                                               {"held_out", EvaluatedPart::kHeldOut},
+                                               {"unknown", EvaluatedPart::kUnknown}}));
   app.add_option(
          "--blocks", options.blocks,
          "Only these parts of every flight's duration, such as 0.4:0.6,0.8:0.9; in place of split and part")
@@ -24,6 +36,9 @@ void add_evaluate_options(CLI::App& app, alight::EvaluateOptions& options) {
       "Examples:\n"
       "  alight-evaluate --checkpoint runs/demo/best.pt --data data/demo --output table.md\n"
       "  alight-evaluate --data data/demo --output baselines.json --every 10\n"
+      "  alight-evaluate --checkpoint runs/a/best.pt --data data/ten --output unknown.md --split "
+      "runs/a/config.yaml "
+      "--part unknown\n"
       "  alight-evaluate --checkpoint runs/demo/best.pt --data data/demo --output table.csv --flights meadow "
       "--blocks 0.4:0.6 --pictures out/worst\n"
       "  alight-evaluate --print-config\n"
