@@ -77,6 +77,10 @@ TEST(Evaluate, MistakesAreNamedBeforeTheWorkBegins) {
   expect(on_quick("--blocks 0.4" + out), 2, "begin:end");
   expect(on_quick("--flights quik" + out), 2, "no flight \"quik\"; the data set has quick");
   expect(on_quick("--checkpoint /no/net.pt" + out), 1, "/no/net.pt");
+  expect(on_quick("--part unknown" + out), 2, "no sample is left");
+  const fs::path train = test_folder() / "train.yaml";
+  std::ofstream(train) << "split: {unknown_flights: [quik]}\n";
+  expect(on_quick("--part unknown --split " + train.string() + out), 2, "no flight \"quik\"");
 }
 
 TEST(EvaluateDepth, JudgesADepthMapOfADataSet) {
