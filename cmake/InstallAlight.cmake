@@ -8,7 +8,7 @@ set(ALIGHT_PACKAGE_TARGETS alight_configs alight_cli alight_geometry alight_alig
 set(ALIGHT_TOOLS alight-sim alight-dataset)
 if(ALIGHT_WITH_TORCH)
   list(APPEND ALIGHT_PACKAGE_TARGETS alight_models alight_infer)
-  list(APPEND ALIGHT_TOOLS alight-train alight-export alight-infer)
+  list(APPEND ALIGHT_TOOLS alight-train alight-evaluate alight-export alight-infer)
 endif()
 get_property(imported_targets GLOBAL PROPERTY ALIGHT_IMPORTED_TARGETS)
 

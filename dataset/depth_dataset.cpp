@@ -54,6 +54,17 @@ torch::Tensor image_to_tensor(const cv::Mat& image) {
   return tensor;
 }
 
+cv::Mat tensor_to_image(const torch::Tensor& image) {
+  if (image.dim() != 3 || image.size(0) != 3 || image.scalar_type() != torch::kFloat32) {
+    throw std::invalid_argument("tensor_to_image: expected [3,H,W] float32");
+  }
+  const torch::Tensor bytes = (image.detach().cpu() * 255).round().clamp(0, 255).to(torch::kUInt8);
+  const torch::Tensor packed = bytes.flip(0).permute({1, 2, 0}).contiguous();
+  return cv::Mat(static_cast<int>(packed.size(0)), static_cast<int>(packed.size(1)), CV_8UC3,
+                 packed.data_ptr<std::uint8_t>())
+      .clone();
+}
+
 torch::Tensor depth_to_tensor(const cv::Mat& depth_m) {
   if (depth_m.type() != CV_32FC1) throw std::invalid_argument("depth_to_tensor: expected CV_32FC1");
   torch::Tensor tensor = torch::empty({1, depth_m.rows, depth_m.cols}, torch::kFloat32);

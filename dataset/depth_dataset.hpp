@@ -72,6 +72,8 @@ class DepthDataset : public torch::data::datasets::Dataset<DepthDataset, DepthSa
 
 /// CV_8UC1 or CV_8UC3 BGR -> [3,H,W] float32 RGB in 0..1.
 torch::Tensor image_to_tensor(const cv::Mat& image);
+/// [3,H,W] float32 RGB in 0..1 -> CV_8UC3 BGR.
+cv::Mat tensor_to_image(const torch::Tensor& image);
 /// CV_32FC1 -> [1,H,W] float32 (a copy).
 torch::Tensor depth_to_tensor(const cv::Mat& depth_m);
 /// [1,H,W] or [H,W] float32 -> CV_32FC1 (a copy).

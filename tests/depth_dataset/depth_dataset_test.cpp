@@ -192,5 +192,13 @@ TEST(TensorConversion, AViewIntoALargerMatIsCopiedRowByRow) {
   EXPECT_TRUE(image_to_tensor(part).equal(image_to_tensor(part.clone())));
 }
 
+TEST(TensorConversion, ImagesComeBackBitForBit) {
+  cv::Mat image(5, 7, CV_8UC3);
+  cv::RNG random(3);
+  random.fill(image, cv::RNG::UNIFORM, 0, 256);
+  EXPECT_EQ(cv::norm(tensor_to_image(image_to_tensor(image)), image, cv::NORM_INF), 0);
+  EXPECT_THROW(tensor_to_image(torch::zeros({1, 5, 7})), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace alight

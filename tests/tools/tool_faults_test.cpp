@@ -149,6 +149,7 @@ TEST(ConfigFaults, MisspeltKeyNamesFileLineAndTheKeyMeant) {
   } tools[] = {{"alight-sim", ""},
                {"alight-dataset build", "--log a.bag"},
                {"alight-train", ""},
+               {"alight-evaluate", "--data data/demo"},
                {"alight-infer", "--log a.bag"}};
   for (const auto& [tool, arguments] : tools) {
     const fs::path config = folder / "config.yaml";

@@ -1,0 +1,104 @@
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/checkpoint.hpp"
+#include "tool_runner.hpp"
+
+/// alight-evaluate on a short simulated flight, as a user runs it.
+namespace alight::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// The data set of the quick flight, made once.
+const fs::path& quick_dataset() {
+  static const fs::path folder = [] {
+    const fs::path path = quick_flight().parent_path() / "quick_dataset";
+    fs::remove_all(path);
+    const ToolRun run = run_tool("alight-dataset build --config configs/dataset/default.yaml --log " +
+                                 (quick_flight() / "quick.bag").string() + " --output " + path.string());
+    if (run.exit_code != 0) throw std::runtime_error("alight-dataset failed: " + run.out);
+    return path;
+  }();
+  return folder;
+}
+
+std::string read_file(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+std::string on_quick(const std::string& arguments) {
+  return "alight-evaluate --data " + quick_dataset().string() + " " + arguments;
+}
+
+TEST(Evaluate, WritesATableAndPicturesOfANetworkBesideTheBaselines) {
+  const fs::path folder = test_folder();
+  DepthCompletionConfig config;
+  config.image_widths = {8, 8, 16, 16};
+  config.depth_widths = {8, 8, 8, 8};
+  config.decoder_widths = {16, 8, 8, 8, 8};
+  save_checkpoint(folder / "net.pt", DepthCompletionNet(config));
+  const ToolRun run = run_tool(on_quick("--checkpoint " + (folder / "net.pt").string() + " --output " +
+                                        (folder / "table.md").string() + " --every 5 --pictures " +
+                                        (folder / "worst").string() + " --picture-count 1"));
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  const std::string table = read_file(folder / "table.md");
+  for (const char* method :
+       {"net.pt", "nearest", "Delaunay", "Delaunay, inverse depth", "IP-Basic", "altitude plane"}) {
+    EXPECT_THAT(table, HasSubstr(std::string(method) + " | ")) << method;
+  }
+  for (const char* region :
+       {"all", "held_out", "dense", "inside_fov", "outside_fov", "near_edges", "right image"}) {
+    EXPECT_THAT(table, HasSubstr("\n## " + std::string(region) + "\n")) << region;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "worst"), {}), 1);
+}
+
+TEST(Evaluate, MistakesAreNamedBeforeTheWorkBegins) {
+  const std::string out = " --output " + (test_folder() / "t.csv").string();
+  const auto expect = [](const std::string& command, int exit_code, const std::string& words) {
+    const ToolRun run = run_tool(command);
+    EXPECT_EQ(run.exit_code, exit_code) << command << "\n" << run.out;
+    EXPECT_THAT(run.out, HasSubstr(words)) << command;
+  };
+  expect(on_quick("--output /tmp/table.txt"), 2, ".md, .csv or .json");
+  expect(on_quick("--output /no/such/folder/t.md"), 1, "/no/such/folder");
+  expect("alight-evaluate" + out, 2, "--data is missing");
+  expect(on_quick(""), 2, "--output is missing");
+  expect("alight-evaluate --data /no/such/set" + out, 1, "/no/such/set");
+  expect(on_quick("--blocks 0.6:0.4" + out), 2, "0.6:0.4");
+  expect(on_quick("--blocks 0.4" + out), 2, "begin:end");
+  expect(on_quick("--flights quik" + out), 2, "no flight \"quik\"; the data set has quick");
+  expect(on_quick("--checkpoint /no/net.pt" + out), 1, "/no/net.pt");
+  expect(on_quick("--part unknown" + out), 2, "no sample is left");
+  const fs::path train = test_folder() / "train.yaml";
+  std::ofstream(train) << "split: {unknown_flights: [quik]}\n";
+  expect(on_quick("--part unknown --split " + train.string() + out), 2, "no flight \"quik\"");
+}
+
+TEST(EvaluateDepth, JudgesADepthMapOfADataSet) {
+  const fs::path flight = quick_dataset() / "quick";
+  const std::string pair = "alight-evaluate depth --rig configs/rigs/paper.yaml --left " +
+                           (flight / "left/000000.png").string() + " --right " +
+                           (flight / "right/000000.png").string() + " --depth " +
+                           (flight / "dense/000000.png").string();
+  const ToolRun run =
+      run_tool(pair + " --centre-cropped --sparse " + (flight / "depth/000000.png").string() + " --truth " +
+               (flight / "dense/000000.png").string() + " --config configs/infer/paper.yaml");
+  EXPECT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("sim_pred   0."), HasSubstr("sim_d      0."), HasSubstr("verdict"),
+                             HasSubstr("RMSE [mm]          0.00")));
+  const ToolRun uncropped = run_tool(pair);
+  EXPECT_EQ(uncropped.exit_code, 1);
+  EXPECT_THAT(uncropped.out, HasSubstr("--centre-cropped"));
+}
+
+}  // namespace
+}  // namespace alight::test

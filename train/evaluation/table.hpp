@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "train/evaluation/evaluator.hpp"
+
+namespace alight {
+
+/// For readers: a table a region and metric, methods as rows, feedings as columns, each cell the mean over flights and
+/// its standard error over flights. `*` marks cells in which the altitude plane stands in for a method.
+std::string to_markdown(const EvaluationReport& report);
+/// A line a method, feeding, region and metric: pooled value, mean over flights, standard error, counts.
+std::string to_csv(const EvaluationReport& report);
+/// Everything, with the values of every flight.
+std::string to_json(const EvaluationReport& report);
+
+/// Before the work begins. @throws ConfigError for another extension than .md, .csv or .json, DataError if the folder
+/// is not there
+void check_table_path(const std::filesystem::path& path);
+/// In the format that the extension says. @throws as check_table_path, DataError if it cannot be written
+void write_table(const EvaluationReport& report, const std::filesystem::path& path);
+
+}  // namespace alight
