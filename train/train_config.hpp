@@ -27,9 +27,10 @@ struct TrainingLoopConfig {
   std::int64_t seed = 1;
   int workers = 1;  ///< batches prepared in the background
   int cache_mb = 4000;
-  int save_every_steps = 0;   ///< last.pt also inside an epoch; 0: at its end
-  int keep_every_epochs = 0;  ///< epoch_0010.pt and so on; 0: none
-  int early_stop_epochs = 0;  ///< without a better validation; 0: never
+  int save_every_steps = 0;                          ///< last.pt also inside an epoch; 0: at its end
+  int keep_every_epochs = 0;                         ///< epoch_0010.pt and so on; 0: none
+  int early_stop_epochs = 0;                         ///< without a better validation; 0: never
+  std::optional<std::string> image_encoder_weights;  ///< file of scripts/convert_resnet18.py, or a checkpoint
 };
 void bind(Binder& b, TrainingLoopConfig& c);
 

@@ -60,6 +60,7 @@ Trainer::Trainer(const TrainConfig& config, SampleSource& training, SampleSource
       folder_(folder),
       net_(make_network(config, device_)),
       flying_(net_) {
+  if (config_.train.image_encoder_weights) load_image_encoder(*config_.train.image_encoder_weights, net_);
   if (config_.optimizer.average_decay > 0) {
     flying_ = DepthCompletionNet(config_.model);
     place(*flying_, device_, MemoryFormat::kContiguous);

@@ -13,7 +13,9 @@ int main(int argc, char** argv) {
   R_world_camera << 1, 0, 0, 0, -1, 0, 0, 0, -1;  // looks down
   const alight::SiteSelection site = alight::SiteSelector({}, camera).select(level_ground_m, R_world_camera);
   if (!site.found()) return 1;
-  if (argc > 1) alight::make_network_predictor(argv[1], camera, 0);
+  alight::RectifiedRig rig;
+  rig.intrinsics = camera;
+  if (argc > 1) alight::make_network_predictor(argv[1], rig, 0);
   std::printf("%s\n", alight::describe(site).c_str());
   return 0;
 }

@@ -217,6 +217,27 @@ TEST_F(TrainerTest, LowPrecisionAndChannelsLastTrainToo) {
   }
 }
 
+TEST_F(TrainerTest, StartsFromAnotherNetworksImageEncoder) {
+  TrainConfig config = tiny_training();
+  train(config, "first");
+  config.train.seed = 5;
+  config.train.image_encoder_weights = (root_ / "first" / "last.pt").string();
+  MemorySource training = scenes(6);
+  RunFolder folder(root_ / "second");
+  const DepthCompletionNet net = Trainer(config, training, nullptr, folder).net();
+  const auto first = load_network(root_ / "first" / "last.pt").net->named_parameters();
+  for (const auto& item : net->named_parameters()) {
+    const bool image = item.key().rfind("image_encoder.", 0) == 0 && item.value().dim() == 4;
+    const bool depth = item.key().rfind("depth_encoder.", 0) == 0 && item.value().dim() == 4;
+    if (image) {
+      EXPECT_TRUE(torch::equal(item.value(), first[item.key()])) << item.key();
+    }
+    if (depth) {
+      EXPECT_FALSE(torch::equal(item.value(), first[item.key()])) << item.key();
+    }
+  }
+}
+
 TEST_F(TrainerTest, KeepsEveryNthEpochAndStopsEarly) {
   TrainConfig config = tiny_training();
   config.train.epochs = 30;
