@@ -296,7 +296,7 @@ class DepthCompletionNet(nn.Module):
         x = self.decoder[4](x)[:, :, : depth_input.shape[2], : depth_input.shape[3]]
         if self.detail is not None:
             x = self.detail(torch.cat([x, image_input, depth_input], 1))
-        return self._to_depth(self.head(x), depth_input)
+        return self._to_depth(self.head(x).float(), depth_input)  # autocast's bfloat16 ends here
 
     def _to_depth(self, raw, depth_input):
         c = self.config

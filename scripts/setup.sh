@@ -15,7 +15,7 @@ packages=(
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag python3-venv
 )
-full_packages=(python3-torch)
+full_packages=(python3-torch python3-yaml python3-numpy python3-opencv)
 
 case "${1:-}" in
   "") ;;

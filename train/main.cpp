@@ -6,6 +6,7 @@
 
 #include "cli/command_line.hpp"
 #include "models/network_summary.hpp"
+#include "train/benchmark.hpp"
 #include "train/plot_command.hpp"
 #include "train/provenance.hpp"
 #include "train/run_folder.hpp"
@@ -23,6 +24,7 @@ constexpr const char* kExamples =
     "  alight-train --resume runs/demo\n"
     "  alight-train --config configs/train/paper.yaml --print-model\n"
     "  alight-train --config configs/train/paper.yaml --print-config\n"
+    "  alight-train --config configs/train/default.yaml --benchmark\n"
     "  alight-train plot runs/demo runs/longer --output curves.png\n";
 
 struct Options {
@@ -31,6 +33,9 @@ struct Options {
   std::string resume;
   bool print_model = false;
   int model_size_px = 352;
+  bool benchmark = false;
+  int benchmark_steps = 10;
+  bool json = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -42,6 +47,14 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--model-size", options.model_size_px, "Image side for --print-model, pixels")
       ->capture_default_str()
       ->check(CLI::Range(32, 4096));
+  auto* benchmark = app.add_flag("--benchmark", options.benchmark,
+                                 "Time training steps with and without loading, print speed, memory and the "
+                                 "share of this machine's convolution speed, then exit; nothing is kept");
+  app.add_option("--benchmark-steps", options.benchmark_steps, "Steps that --benchmark times of each kind")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000))
+      ->needs(benchmark);
+  app.add_flag("--json", options.json, "Print --benchmark's figures as a line of JSON")->needs(benchmark);
   app.footer(kExamples);
 }
 
@@ -75,6 +88,13 @@ int train(const TrainConfig& config, RunFolder& folder, bool resume) {
   return kExitOk;
 }
 
+int benchmark(const TrainConfig& config, const Options& options) {
+  DatasetSource training(config.dataset, config.split, SplitPart::kTraining, /*with_dense=*/false);
+  const TrainingBenchmark result = benchmark_training(config, training, options.benchmark_steps);
+  std::fputs((options.json ? result.json() : result.table()).c_str(), stdout);
+  return kExitOk;
+}
+
 int resume(const Options& options) {
   if (!options.config.file.empty() || !options.output.empty()) {
     throw ConfigError(
@@ -94,6 +114,7 @@ int run(const Options& options) {
     std::fputs(table.c_str(), stdout);
     return kExitOk;
   }
+  if (options.benchmark) return benchmark(config, options);
   if (options.output.empty())
     throw ConfigError("--output is missing: name the folder that the run is written to");
   RunFolder folder(options.output);

@@ -123,20 +123,18 @@ void Trainer::check_finite(const LossTerms& terms, const Batch& batch) const {
       "loss.depth_error: log. Checkpoints of finished epochs are kept");
 }
 
-/// Gradients of `accumulate` batches averaged, then one step of the optimizer.
-void Trainer::train_step(BatchLoader& loader, int epoch) {
+void Trainer::train_step(const std::function<Batch()>& next_batch, int epoch, std::int64_t steps_an_epoch) {
   optimizer_->zero_grad();
   const int count = config_.optimizer.accumulate;
   for (int i = 0; i < count; ++i) {
-    const Batch batch = loader.next()->to(device_, torch_format(config_.compute.memory_format));
+    const Batch batch = next_batch().to(device_, torch_format(config_.compute.memory_format));
     const LossTerms terms = losses_of(batch, static_cast<std::int64_t>(i) * config_.train.batch_size);
     check_finite(terms, batch);
     (terms.total / count).backward();
     const std::vector<double> losses = values(terms);
     for (std::size_t k = 0; k < kTerms; ++k) progress_.epoch_losses[k] += losses[k] / count;
   }
-  const std::int64_t total_steps =
-      config_.train.epochs * (static_cast<std::int64_t>(loader.batches()) / count);
+  const std::int64_t total_steps = config_.train.epochs * steps_an_epoch;
   learning_rate_ = config_.optimizer.learning_rate *
                    learning_rate_factor(config_.schedule, epoch, progress_.step, total_steps);
   optimizer_->step(learning_rate_);
@@ -164,7 +162,7 @@ void Trainer::train_epoch(int epoch) {
   ProgressBar bar(label, (steps - progress_.epoch_step) * images_a_step, "images");
   net_->train();
   while (progress_.epoch_step < steps) {
-    train_step(batches, epoch);
+    train_step([&] { return *batches.next(); }, epoch, steps);
     ++progress_.epoch_step;
     bar.advance(images_a_step, describe(mean_losses()));
     if (c.save_every_steps > 0 && progress_.step % c.save_every_steps == 0) save("last.pt");

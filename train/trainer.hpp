@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,11 @@ class Trainer {
   /// The best network on final_samples of the held-out samples; writes validation.txt. Empty without validation.
   std::optional<ValidationReport> evaluate_best();
 
+  /// The pieces of run(), public so that the benchmark times them and no copy of them: the batches of an epoch, and one
+  /// step of the optimizer on the mean gradient of the next optimizer.accumulate batches.
+  BatchLoader loader(int epoch, std::size_t first_batch = 0);
+  void train_step(const std::function<Batch()>& next_batch, int epoch, std::int64_t steps_an_epoch);
+
   /// The network that is saved to fly: the one that learns, or the average of its weights.
   DepthCompletionNet net() const { return flying_; }
 
@@ -45,10 +51,8 @@ class Trainer {
   /// Means of the loss terms over batches, before weighting: depth, ratio, photometric, smoothness, total.
   using Losses = std::vector<double>;
 
-  BatchLoader loader(int epoch, std::size_t first_batch);
   std::int64_t steps_per_epoch();
   void train_epoch(int epoch);
-  void train_step(BatchLoader& loader, int epoch);
   LossTerms losses_of(const Batch& batch, std::int64_t place);
   void check_finite(const LossTerms& terms, const Batch& batch) const;
   void finish_epoch(int epoch, double seconds);
