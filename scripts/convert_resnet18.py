@@ -96,7 +96,7 @@ class Weights(torch.nn.Module):
     def __init__(self, weights):
         super().__init__()
         self.weights = weights
-        self.alight_checkpoint_version = 1
+        self.alight_checkpoint_version = 2
 
     def forward(self):
         return self.weights
