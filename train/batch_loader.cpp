@@ -30,9 +30,9 @@ BatchLoader::BatchLoader(SampleCache& cache, const BatchLoaderOptions& options, 
     : cache_(cache), options_(options), epoch_(epoch), started_(first_batch) {
   const auto batch_size = static_cast<std::size_t>(options.batch_size);
   if (cache.size() < batch_size) {
-    throw DataError("the training flights have " + std::to_string(cache.size()) +
-                    " samples, fewer than a batch of " + std::to_string(batch_size) +
-                    "; name more flights or lower train.batch_size");
+    throw DataError("training has " + std::to_string(cache.size()) + " samples, fewer than a batch of " +
+                    std::to_string(batch_size) +
+                    "; leave more of the data set to training (split), or lower train.batch_size");
   }
   std::seed_seq seed{options.seed, static_cast<std::uint64_t>(epoch)};
   std::mt19937_64 random(seed);

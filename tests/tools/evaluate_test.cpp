@@ -15,19 +15,6 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// The data set of the quick flight, made once.
-const fs::path& quick_dataset() {
-  static const fs::path folder = [] {
-    const fs::path path = quick_flight().parent_path() / "quick_dataset";
-    fs::remove_all(path);
-    const ToolRun run = run_tool("alight-dataset build --config configs/dataset/default.yaml --log " +
-                                 (quick_flight() / "quick.bag").string() + " --output " + path.string());
-    if (run.exit_code != 0) throw std::runtime_error("alight-dataset failed: " + run.out);
-    return path;
-  }();
-  return folder;
-}
-
 std::string read_file(const fs::path& path) {
   std::stringstream text;
   text << std::ifstream(path).rdbuf();

@@ -46,4 +46,16 @@ const fs::path& quick_flight() {
   return folder;
 }
 
+const fs::path& quick_dataset() {
+  static const fs::path folder = [] {
+    const fs::path path = quick_flight().parent_path() / "quick_dataset";
+    fs::remove_all(path);
+    const ToolRun run = run_tool("alight-dataset build --config configs/dataset/default.yaml --log " +
+                                 (quick_flight() / "quick.bag").string() + " --output " + path.string());
+    if (run.exit_code != 0) throw std::runtime_error("alight-dataset failed: " + run.out);
+    return path;
+  }();
+  return folder;
+}
+
 }  // namespace alight::test

@@ -20,4 +20,7 @@ std::filesystem::path test_folder();
 /// A folder with one short simulated flight (`quick.bag`, `quick.truth`), made once per process.
 const std::filesystem::path& quick_flight();
 
+/// The data set of that flight, made once per process.
+const std::filesystem::path& quick_dataset();
+
 }  // namespace alight::test

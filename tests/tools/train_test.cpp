@@ -1,0 +1,129 @@
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tool_runner.hpp"
+
+/// alight-train as a user runs it, kills it and goes on with it.
+namespace alight::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string read_file(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// A network and a run that take seconds.
+fs::path small_training(const fs::path& folder, const std::string& more = "") {
+  const fs::path path = folder / "train.yaml";
+  std::ofstream(path) << "dataset: " << quick_dataset().string() << "\n"
+                      << "model:\n"
+                         "  image_widths: [4, 4, 8, 8]\n"
+                         "  depth_widths: [4, 4, 8, 8]\n"
+                         "  decoder_widths: [8, 4, 4, 4, 4]\n"
+                         "density: {draw: sample}\n"
+                         "compute: {threads: 1}\n"
+                         "train: {epochs: 3, batch_size: 2, steps_per_epoch: 6, crop_px: 64, save_every_steps: 1}\n"
+                         "validation: {samples: 1, final_samples: 1, shares: [0, 0.3]}\n"
+                      << more;
+  return path;
+}
+
+const char* const kHeldOut = "split: {held_out_blocks: [[0.8, 1]], gap_s: 0.1}\n";
+
+std::string command(const fs::path& config, const fs::path& run) {
+  return "alight-train --config " + config.string() + " --output " + run.string();
+}
+
+TEST(Train, LeavesAllThatARunIsKnownBy) {
+  const fs::path folder = test_folder();
+  const fs::path run = folder / "run";
+  const ToolRun said = run_tool(command(small_training(folder, kHeldOut), run));
+  ASSERT_EQ(said.exit_code, 0) << said.out;
+  for (const char* name : {"last.pt", "best.pt", "metrics.csv", "validation.txt"}) EXPECT_TRUE(fs::exists(run / name));
+  EXPECT_THAT(read_file(run / "config.yaml"), AllOf(HasSubstr("steps_per_epoch: 6"), HasSubstr("window_max_s:")));
+  EXPECT_THAT(read_file(run / "provenance.yaml"),
+              ::testing::ContainsRegex("git_revision: [0-9a-f]{40}(-dirty)?\ndataset: .*\ndata_hash: [0-9a-f]{16}\n"));
+}
+
+/// Starts the tool and kills it with SIGKILL after a while, as a power cut would. @returns whether it was still running
+bool start_and_kill(const std::string& command_line, std::chrono::milliseconds after) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string line = "exec " ALIGHT_BINARY_DIR "/bin/" + command_line + " >/dev/null 2>&1";
+    if (chdir(ALIGHT_SOURCE_DIR) != 0) _exit(126);
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  std::this_thread::sleep_for(after);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status);
+}
+
+TEST(Train, RunThatIsKilledAndResumedEqualsTheUninterruptedOne) {
+  const fs::path folder = test_folder();
+  const fs::path config = small_training(folder, kHeldOut);
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run_tool(command(config, folder / "whole")).exit_code, 0);
+  const auto whole =
+      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
+  const fs::path run = folder / "killed";
+  bool killed = start_and_kill(command(config, run), whole * 2 / 5);
+  const std::string resume = "alight-train --resume " + run.string();
+  // Killed again at another moment, then left alone. A kill before the folder is there leaves nothing to resume.
+  if (fs::exists(run / "config.yaml")) {
+    killed = start_and_kill(resume, whole * 2 / 5) && killed;
+    ASSERT_EQ(run_tool(resume).exit_code, 0);
+  } else {
+    ASSERT_EQ(run_tool(command(config, run)).exit_code, 0);
+  }
+  EXPECT_TRUE(killed) << "the tool had ended before it was killed";
+  EXPECT_EQ(read_file(run / "last.pt"), read_file(folder / "whole" / "last.pt"));
+  EXPECT_EQ(read_file(run / "best.pt"), read_file(folder / "whole" / "best.pt"));
+}
+
+TEST(Train, EmptySplitSaysWhatToDo) {
+  const fs::path folder = test_folder();
+  const fs::path config = small_training(folder, "split: {held_out_blocks: [[0, 1]]}\n");
+  const ToolRun said = run_tool(command(config, folder / "run"));
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_THAT(said.out, AllOf(HasSubstr("0 samples"), HasSubstr("split")));
+}
+
+TEST(Train, SampleWhoseFileIsCutOffIsNamed) {
+  const fs::path folder = test_folder();
+  const fs::path dataset = folder / "cut";
+  fs::copy(quick_dataset(), dataset, fs::copy_options::recursive);
+  for (const auto& entry : fs::directory_iterator(dataset / "quick" / "depth")) {
+    fs::resize_file(entry.path(), fs::file_size(entry.path()) / 2);
+  }
+  const ToolRun said =
+      run_tool(command(small_training(folder), folder / "run") + " --set dataset=" + dataset.string());
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_THAT(said.out, AllOf(HasSubstr("/depth/0"), HasSubstr(".png")));
+}
+
+TEST(Train, ResumeTakesARunAlone) {
+  const fs::path folder = test_folder();
+  EXPECT_EQ(run_tool("alight-train --resume " + (folder / "absent").string()).exit_code, 1);
+  EXPECT_EQ(run_tool("alight-train --resume a --output b").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace alight::test
