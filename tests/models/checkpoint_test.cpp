@@ -131,7 +131,7 @@ TEST_F(Checkpoint, NetworkToPassOnIsSmallAndNearlyTheSame) {
   save_checkpoint(folder_ / "run.pt", net, {}, {net, &adam});
   save_network(folder_ / "net.pt", net);
   EXPECT_LT(fs::file_size(folder_ / "net.pt"), 0.5 * static_cast<double>(fs::file_size(folder_ / "run.pt")));
-  const LoadedNetwork loaded = load_network(folder_ / "net.pt");
+  LoadedNetwork loaded = load_network(folder_ / "net.pt");
   const torch::NoGradGuard no_grad;
   const torch::Tensor image = torch::rand({1, 3, 32, 32});
   const torch::Tensor sparse_m = random_sparse_m(1, 32, 32);
