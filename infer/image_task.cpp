@@ -4,27 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <utility>
-#include <vector>
-
-#include "geometry/frames.hpp"
 
 namespace alight {
-namespace {
-
-/// The middle of the known depths, to place the LiDAR's circle in the image; `otherwise` where there are none.
-double median_depth_m(const cv::Mat& depth_m, double otherwise) {
-  std::vector<float> values;
-  for (int v = 0; v < depth_m.rows; ++v) {
-    std::copy_if(depth_m.ptr<float>(v), depth_m.ptr<float>(v) + depth_m.cols, std::back_inserter(values),
-                 [](float depth) { return depth > 0; });
-  }
-  if (values.empty()) return otherwise;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
-
-}  // namespace
 
 const char* name(DepthSource source) {
   switch (source) {
@@ -142,11 +123,7 @@ void ImageTask::predict() {
   evaluate_stereo();
 }
 
-cv::Mat ImageTask::fov_mask() {
-  constexpr double kUsualHeight_m = 20.0;
-  return lidar_fov_mask(rig_.intrinsics, rig_.T_camera_lidar, to_radians(config_.lidar_half_fov_deg),
-                        median_depth_m(known_.depth_m, kUsualHeight_m));
-}
+cv::Mat ImageTask::fov_mask() { return lidar_circle(known_.depth_m, rig_, config_.lidar_half_fov_deg); }
 
 void ImageTask::evaluate_stereo() {
   if (!stereo_test_.has_right()) return;

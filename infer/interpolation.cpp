@@ -1,8 +1,15 @@
 #include "infer/interpolation.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/depth_map.hpp"
+#include "geometry/frames.hpp"
+#include "geometry/projection.hpp"
 
 namespace alight {
 
@@ -17,6 +24,24 @@ cv::Mat interpolate_inside_fov(const cv::Mat& sparse_m, const cv::Mat& fov,
   cv::Mat distance_px;
   cv::distanceTransform(sparse_m == 0, distance_px, cv::DIST_L2, cv::DIST_MASK_5);
   return fill_nearest(sparse_m, fov & (distance_px <= config.max_distance_px));
+}
+
+double median_depth_m(const cv::Mat& depth_m, double otherwise) {
+  std::vector<float> values;
+  for (int v = 0; v < depth_m.rows; ++v) {
+    std::copy_if(depth_m.ptr<float>(v), depth_m.ptr<float>(v) + depth_m.cols, std::back_inserter(values),
+                 [](float depth) { return depth > 0; });
+  }
+  if (values.empty()) return otherwise;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+cv::Mat lidar_circle(const cv::Mat& sparse_m, const RectifiedRig& rig, double half_fov_deg) {
+  constexpr double kUsualHeight_m = 20.0;
+  return lidar_fov_mask(rig.intrinsics, rig.T_camera_lidar, to_radians(half_fov_deg),
+                        median_depth_m(sparse_m, kUsualHeight_m));
 }
 
 }  // namespace alight

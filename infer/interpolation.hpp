@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "configs/config_reader.hpp"
+#include "geometry/stereo_rectification.hpp"
 
 namespace alight {
 
@@ -18,5 +19,12 @@ void bind(Binder& b, InterpolationConfig& c);
 /// @param sparse_m CV_32FC1 plane depth, 0 = no point. @param fov CV_8UC1, 255 inside. @returns CV_32FC1, 0 = unknown
 cv::Mat interpolate_inside_fov(const cv::Mat& sparse_m, const cv::Mat& fov,
                                const InterpolationConfig& config);
+
+/// The middle of the known depths; `otherwise` where there are none. @param depth_m CV_32FC1, 0 = unknown
+double median_depth_m(const cv::Mat& depth_m, double otherwise);
+
+/// Where the LiDAR's circle lies in the image, at the middle of the depths of its points.
+/// @param sparse_m CV_32FC1 plane depth, 0 = no point @returns CV_8UC1, 255 inside
+cv::Mat lidar_circle(const cv::Mat& sparse_m, const RectifiedRig& rig, double half_fov_deg);
 
 }  // namespace alight

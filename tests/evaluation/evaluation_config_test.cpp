@@ -47,6 +47,7 @@ TEST(EvaluationConfig, PartsAreThoseOfTheSplit) {
   EXPECT_THAT(chosen(split + "held_out"), ElementsAre(4, 5));
   EXPECT_THAT(chosen(split + "training"), ElementsAre(0, 1, 8, 9));
   EXPECT_THAT(chosen(split + "unknown\nevery: 5"), ElementsAre(10, 15));
+  EXPECT_THAT(chosen(split + "all_but_training\nevery: 5"), ElementsAre(4, 10, 15));
 }
 
 TEST(EvaluationConfig, MistakesAreNamed) {

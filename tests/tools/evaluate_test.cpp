@@ -70,6 +70,42 @@ TEST(Evaluate, MistakesAreNamedBeforeTheWorkBegins) {
   expect(on_quick("--part unknown --split " + train.string() + out), 2, "no flight \"quik\"");
 }
 
+/// An untrained network is nowhere good, so there is a document but no curve to draw.
+TEST(EvaluateSelf, WritesADocumentAndScores) {
+  const fs::path folder = test_folder();
+  save_checkpoint(folder / "net.pt", DepthCompletionNet(DepthCompletionConfig()));
+  const ToolRun run =
+      run_tool("alight-evaluate self --data " + quick_dataset().string() + " --checkpoint " +
+               (folder / "net.pt").string() + " --windows 0,0.1 --every 20 --output " +
+               (folder / "self.md").string() + " --scores " + (folder / "scores.csv").string());
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_THAT(read_file(folder / "self.md"),
+              AllOf(HasSubstr("--windows 0,0.1"), HasSubstr("| wrong_height |"),
+                    HasSubstr("| hold-out median |"), HasSubstr("| both |")));
+  EXPECT_THAT(read_file(folder / "scores.csv"), HasSubstr("\nquick,0,0.1,delaunay,"));
+}
+
+TEST(EvaluateSelf, MistakesAreNamedBeforeTheWorkBegins) {
+  const std::string out = " --output " + (test_folder() / "t.md").string();
+  const auto expect = [](const std::string& arguments, int exit_code, const std::string& words) {
+    const ToolRun run = run_tool("alight-evaluate self " + arguments);
+    EXPECT_EQ(run.exit_code, exit_code) << arguments << "\n" << run.out;
+    EXPECT_THAT(run.out, HasSubstr(words)) << arguments;
+  };
+  const std::string data = " --data " + quick_dataset().string();
+  expect(data + out, 2, "--checkpoint is missing");
+  expect("--checkpoint net.pt" + out, 2, "--data is missing");
+  expect("--checkpoint net.pt" + data, 2, "--output is missing");
+  expect("--checkpoint net.pt --output t.txt" + data, 2, ".md");
+  expect("--checkpoint net.pt --figure f.jpg" + data + out, 2, ".png");
+  expect("--checkpoint net.pt --scores /no/such/folder/s.csv" + data + out, 1, "/no/such/folder");
+  expect("--checkpoint net.pt --good 0.95:0.1" + data + out, 2, "0.95:0.1");
+  expect("--checkpoint net.pt --good 1.5:0.1:0.01" + data + out, 2, "1.5:0.1:0.01");
+  expect("--checkpoint net.pt --part unknown" + data + out, 2, "--split");
+  expect("--checkpoint net.pt --flights quik" + data + out, 2, "no flight \"quik\"");
+  expect("--checkpoint /no/net.pt" + data + out, 1, "/no/net.pt");
+}
+
 TEST(EvaluateDepth, JudgesADepthMapOfADataSet) {
   const fs::path flight = quick_dataset() / "quick";
   const std::string pair = "alight-evaluate depth --rig configs/rigs/paper.yaml --left " +

@@ -31,7 +31,8 @@ TEST_P(EveryTool, VersionIsPrinted) {
 
 INSTANTIATE_TEST_SUITE_P(Tools, EveryTool,
                          ::testing::Values("alight-sim", "alight-dataset", "alight-train", "alight-evaluate",
-                                           "alight-evaluate depth", "alight-export", "alight-infer"));
+                                           "alight-evaluate depth", "alight-evaluate self", "alight-export",
+                                           "alight-infer"));
 
 TEST(TrainPlot, HelpShowsAnExample) {
   const ToolRun run = run_tool("alight-train plot --help");

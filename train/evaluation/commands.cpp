@@ -11,6 +11,7 @@
 #include "train/evaluation/depth_file.hpp"
 #include "train/evaluation/network_method.hpp"
 #include "train/evaluation/table.hpp"
+#include "train/evaluation/whole_dataset.hpp"
 #include "train/evaluation/worst_samples.hpp"
 #include "train/train_config.hpp"
 
@@ -51,35 +52,6 @@ DepthMethods make_methods(const EvaluateOptions& options, const EvaluationConfig
   return methods;
 }
 
-/// All samples of a data set; which of them are judged is chosen by index.
-class WholeDataset : public SampleSource {
- public:
-  explicit WholeDataset(const std::string& dir)
-      : dataset_(dir, DepthDatasetOptions{{}, /*with_dense=*/true}) {}
-  std::size_t size() const override { return *dataset_.size(); }
-  DepthSample get(std::size_t index) override { return dataset_.get(index); }
-  const DepthDataset& dataset() const { return dataset_; }
-
- private:
-  DepthDataset dataset_;
-};
-
-std::vector<SampleTime> sample_times(const DepthDataset& dataset) {
-  std::vector<SampleTime> times;
-  for (std::size_t i = 0; i < *dataset.size(); ++i)
-    times.push_back({dataset.flight(i).name, dataset.row(i).t_ns});
-  return times;
-}
-
-std::string flight_list(const std::vector<EvaluationItem>& items) {
-  std::string list;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (i > 0 && items[i].flight == items[i - 1].flight) continue;
-    list += (list.empty() ? "" : ", ") + items[i].flight;
-  }
-  return list;
-}
-
 /// What a reader has to know to make the table again.
 std::vector<std::pair<std::string, std::string>> about(const EvaluateOptions& options,
                                                        const EvaluationConfig& config,
@@ -104,6 +76,9 @@ std::vector<std::pair<std::string, std::string>> about(const EvaluateOptions& op
       break;
     case EvaluatedPart::kUnknown:
       lines.emplace_back("part", "flights that are never trained on");
+      break;
+    case EvaluatedPart::kAllButTraining:
+      lines.emplace_back("part", "flights that are never trained on, and of the others: " + blocks);
       break;
   }
   return lines;

@@ -1,6 +1,7 @@
 #include "train/evaluation/evaluation_config.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -15,7 +16,12 @@ std::vector<std::size_t> part_of(const std::vector<SampleTime>& samples, const E
   }
   const SampleSplit split = choose(samples, config.split);
   if (config.part == EvaluatedPart::kTraining) return split.training;
-  return config.part == EvaluatedPart::kHeldOut ? split.held_out : split.unknown;
+  if (config.part == EvaluatedPart::kHeldOut) return split.held_out;
+  if (config.part == EvaluatedPart::kUnknown) return split.unknown;
+  std::vector<std::size_t> both;
+  std::merge(split.held_out.begin(), split.held_out.end(), split.unknown.begin(), split.unknown.end(),
+             std::back_inserter(both));
+  return both;
 }
 
 void check_flights(const std::vector<std::string>& names, const std::vector<SampleTime>& samples) {
@@ -33,6 +39,22 @@ void check_flights(const std::vector<std::string>& names, const std::vector<Samp
 
 }  // namespace
 
+const char* name(EvaluatedPart part) {
+  switch (part) {
+    case EvaluatedPart::kAll:
+      break;
+    case EvaluatedPart::kTraining:
+      return "training";
+    case EvaluatedPart::kHeldOut:
+      return "held_out";
+    case EvaluatedPart::kUnknown:
+      return "unknown";
+    case EvaluatedPart::kAllButTraining:
+      return "all_but_training";
+  }
+  return "all";
+}
+
 void bind(Binder& b, EvaluationConfig& c) {
   b.field("flights", c.flights, "flights to judge; none: all");
   b.section("split", c.split, "parts of a data set, as in training");
@@ -40,7 +62,8 @@ void bind(Binder& b, EvaluationConfig& c) {
            {{"all", EvaluatedPart::kAll},
             {"training", EvaluatedPart::kTraining},
             {"held_out", EvaluatedPart::kHeldOut},
-            {"unknown", EvaluatedPart::kUnknown}},
+            {"unknown", EvaluatedPart::kUnknown},
+            {"all_but_training", EvaluatedPart::kAllButTraining}},
            "which part of the split is judged; all: the split does not matter");
   b.field("every", c.every, "every n-th sample of a flight", at_least(1));
   b.field("shares", c.shares, "shares of the points fed (P)", between(0, 1));

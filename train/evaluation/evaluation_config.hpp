@@ -13,7 +13,9 @@
 namespace alight {
 
 /// Which samples are judged (train/split.hpp).
-enum class EvaluatedPart { kAll, kTraining, kHeldOut, kUnknown };
+enum class EvaluatedPart { kAll, kTraining, kHeldOut, kUnknown, kAllButTraining };
+/// As in a configuration, such as held_out.
+const char* name(EvaluatedPart part);
 
 struct EvaluationConfig {
   std::vector<std::string> flights;  ///< empty: all

@@ -1,11 +1,24 @@
 #include <map>
+#include <optional>
 #include <string>
 
 #include "train/evaluation/commands.hpp"
+#include "train/evaluation/self_command.hpp"
 
 namespace {
 
 using alight::EvaluatedPart;
+
+void add_part_option(CLI::App& app, std::optional<EvaluatedPart>& part) {
+  std::map<std::string, EvaluatedPart> parts;
+  for (const EvaluatedPart each : {EvaluatedPart::kAll, EvaluatedPart::kTraining, EvaluatedPart::kHeldOut,
+                                   EvaluatedPart::kUnknown, EvaluatedPart::kAllButTraining}) {
+    parts[alight::name(each)] = each;
+  }
+  app.add_option("--part", part,
+                 "Which part of the split: all, training, held_out, unknown or all_but_training")
+      ->transform(CLI::CheckedTransformer(parts));
+}
 
 void add_evaluate_options(CLI::App& app, alight::EvaluateOptions& options) {
   alight::add_config_options(app, options.config);
@@ -16,12 +29,7 @@ void add_evaluate_options(CLI::App& app, alight::EvaluateOptions& options) {
   app.add_option("-o,--output", options.output, "Table to write: .md, .csv or .json");
   app.add_option("--flights", options.flights, "Only these flights, comma-separated")->delimiter(',');
   app.add_option("--split", options.split, "Take the split of this configuration of alight-train");
-  app.add_option("--part", options.part, "Which part of the split: all, training, held_out or unknown")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, EvaluatedPart>{{"all", EvaluatedPart::kAll},
-                                               {"training", EvaluatedPart::kTraining},
-                                               {"held_out", EvaluatedPart::kHeldOut},
-                                               {"unknown", EvaluatedPart::kUnknown}}));
+  add_part_option(app, options.part);
   app.add_option(
          "--blocks", options.blocks,
          "Only these parts of every flight's duration, such as 0.4:0.6,0.8:0.9; in place of split and part")
@@ -66,6 +74,33 @@ void add_depth_options(CLI::App& app, alight::DepthOptions& options) {
       "data/demo/a/dense/000000.png --config configs/infer/paper.yaml");
 }
 
+void add_self_options(CLI::App& app, alight::SelfOptions& options) {
+  app.add_option("--checkpoint", options.checkpoint, "Trained network");
+  app.add_option("-d,--data", options.data, "Data set of simulated flights, which have the true depth");
+  app.add_option("-o,--output", options.output, "Document to write, .md");
+  app.add_option("--figure", options.figure, "ROC curves to draw, .png");
+  app.add_option("--scores", options.scores, "Table with a line a depth map to write, .csv");
+  app.add_option("-c,--config", options.config, "Configuration of alight-infer, for the tests' thresholds");
+  app.add_option("--split", options.split, "Take the split of this configuration of alight-train");
+  add_part_option(app, options.part);
+  app.add_option("--flights", options.flights, "Only these flights, comma-separated")->delimiter(',');
+  app.add_option("--windows", options.windows_s, "Seconds of LiDAR fed, comma-separated; 0: the image alone")
+      ->delimiter(',')
+      ->check(CLI::NonNegativeNumber);
+  app.add_option(
+         "--good", options.good,
+         "What good depth is, share:metres:share_of_depth; the first counts, more show how much hangs on it")
+      ->delimiter(',');
+  app.add_option("--every", options.every, "Every n-th sample of a flight")->check(CLI::PositiveNumber);
+  app.add_option("--threads", options.threads, "Samples at once; 0: all cores")->check(CLI::Range(0, 1024));
+  app.footer(
+      "Examples:\n"
+      "  alight-evaluate self --checkpoint runs/ten/best.pt --data data/ten --output self.md --figure "
+      "self.png\n"
+      "  alight-evaluate self --checkpoint runs/ten/best.pt --data data/ten --output self.md --split "
+      "runs/ten/config.yaml --part unknown --every 10 --good 0.95:0.1:0.01,0.9:0.2:0.02 --scores self.csv");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -79,7 +114,12 @@ int main(int argc, char** argv) {
   CLI::App* depth_app =
       app.add_subcommand("depth", "Judge one depth map with the stereo pair that it belongs to");
   add_depth_options(*depth_app, depth);
+  alight::SelfOptions self;
+  CLI::App* self_app =
+      app.add_subcommand("self", "Judge the self-evaluation: does it tell good depth from bad?");
+  add_self_options(*self_app, self);
   return alight::run_tool(app, argc, argv, [&] {
+    if (self_app->parsed()) return alight::run_self(self);
     return depth_app->parsed() ? alight::run_depth(depth) : alight::run_evaluate(evaluate);
   });
 }
