@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 
 #include "configs/errors.hpp"
 
@@ -54,6 +55,16 @@ BatchLoader::BatchLoader(SampleCache& cache, const BatchLoaderOptions& options, 
     }
     plan_.push_back(std::move(items));
   }
+  keep_shard();
+}
+
+void BatchLoader::keep_shard() {
+  if (options_.shards < 1 || options_.batch_size % options_.shards != 0) {
+    throw std::invalid_argument("BatchLoader: expected a batch of equal shards");
+  }
+  const std::int64_t size = options_.batch_size / options_.shards;
+  first_ = options_.shard * size;
+  for (std::vector<Item>& items : plan_) items = {items.begin() + first_, items.begin() + first_ + size};
 }
 
 Batch BatchLoader::load(std::size_t number) const {
@@ -69,7 +80,7 @@ Batch BatchLoader::load(std::size_t number) const {
   }
   const auto batches_before = static_cast<std::int64_t>(epoch_) * static_cast<std::int64_t>(plan_.size());
   return augment(stack(samples, origins, height, width), options_.augmentation,
-                 {options_.seed, batches_before + static_cast<std::int64_t>(number), 0});
+                 {options_.seed, batches_before + static_cast<std::int64_t>(number), first_});
 }
 
 void BatchLoader::start_more() {

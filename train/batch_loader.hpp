@@ -18,10 +18,13 @@ struct BatchLoaderOptions {
   int workers = 1;             ///< batches prepared ahead, each in a thread of its own
   std::uint64_t seed = 0;
   AugmentationConfig augmentation;
+  int shard = 0;  ///< of every batch, only this one of `shards` equal parts is read
+  int shards = 1;
 };
 
 /// The batches of one epoch: every sample once in random order (again and again where `steps` asks for more),
-/// prepared in the background. Order, cut-outs and augmentation depend on seed and epoch alone, not on threads.
+/// prepared in the background. Order, cut-outs and augmentation depend on seed and epoch alone, not on threads or
+/// shards: a batch of all shards is the one without them.
 class BatchLoader {
  public:
   /// @param first_batch batches before it are left out: what a resumed run has behind it
@@ -37,6 +40,7 @@ class BatchLoader {
     double row_share, column_share;  // where in the room left the cut-out lies, 0..1
   };
 
+  void keep_shard();
   Batch load(std::size_t number) const;
   void start_more();
 
@@ -44,6 +48,7 @@ class BatchLoader {
   BatchLoaderOptions options_;
   int epoch_;
   std::vector<std::vector<Item>> plan_;
+  std::int64_t first_ = 0;  // place of a part's first sample in its batch
   std::size_t started_ = 0;
   std::deque<std::future<Batch>> pending_;
 };

@@ -16,13 +16,16 @@ void bind(Binder& b, ComputeConfig& c) {
   b.choice("memory_format", c.memory_format,
            {{"contiguous", MemoryFormat::kContiguous}, {"channels_last", MemoryFormat::kChannelsLast}},
            "of images and weights");
-  b.field("threads", c.threads, "0: all cores; the same number gives the same weights bit for bit",
+  b.field("threads", c.threads,
+          "of a process; 0: its share of all cores; the same number gives the same weights bit for bit",
           at_least(0));
+  b.field("distributed_timeout_s", c.distributed_timeout_s,
+          "training with several processes: longest wait for another one, seconds", between(1, 3600));
 }
 
-torch::Device find_device(const std::string& name) {
+torch::Device find_device(const std::string& name, int process) {
   const bool cuda = torch::cuda::is_available();
-  if (name == "auto") return cuda ? torch::Device(torch::kCUDA) : torch::Device(torch::kCPU);
+  if (name == "auto") return cuda ? find_device("cuda", process) : torch::Device(torch::kCPU);
   if (name == "cpu") return torch::kCPU;
   if (name.rfind("cuda", 0) != 0) {
     throw ConfigError("compute.device: \"" + name + "\" is no device; expected auto, cpu, cuda or cuda:N");
@@ -30,6 +33,12 @@ torch::Device find_device(const std::string& name) {
   if (!cuda)
     throw ConfigError("compute.device: " + name +
                       ", but this LibTorch finds no CUDA device; use cpu or auto");
+  if (name == "cuda" && process > 0) {
+    if (process < static_cast<int>(torch::cuda::device_count()))
+      return {torch::kCUDA, static_cast<torch::DeviceIndex>(process)};
+    throw ConfigError("compute.device: process " + std::to_string(process) +
+                      " of this machine finds no CUDA device of its own; start as many processes as devices");
+  }
   try {
     return torch::Device(name);
   } catch (const c10::Error&) {
@@ -37,9 +46,9 @@ torch::Device find_device(const std::string& name) {
   }
 }
 
-void set_threads(int threads) {
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  at::set_num_threads(threads > 0 ? threads : cores);
+void set_threads(int threads, int processes) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency()) / processes;
+  at::set_num_threads(threads > 0 ? threads : std::max(1, cores));
 }
 
 void place(torch::nn::Module& module, torch::Device device, MemoryFormat format) {

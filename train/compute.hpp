@@ -19,16 +19,19 @@ struct ComputeConfig {
   std::string device = "auto";  ///< auto | cpu | cuda | cuda:N
   Precision precision = Precision::kFloat32;
   MemoryFormat memory_format = MemoryFormat::kContiguous;
-  int threads = 0;  ///< 0: all cores
+  int threads = 0;                 ///< of a process; 0: its share of all cores
+  int distributed_timeout_s = 30;  ///< longest wait for another process
 };
 void bind(Binder& b, ComputeConfig& c);
 
-/// The device that `name` means on this machine; `auto` takes CUDA where there is one.
+/// The device that `name` means on this machine; `auto` takes CUDA where there is one. Where several processes share
+/// a machine, each takes the CUDA device of its number. @param process its number, from 0
 /// @throws ConfigError for another name, or CUDA that is not there
-torch::Device find_device(const std::string& name);
+torch::Device find_device(const std::string& name, int process = 0);
 
 /// Sets the number of LibTorch's threads. LibTorch starts with half the cores.
-void set_threads(int threads);
+/// @param threads 0: the cores' share of one of `processes`
+void set_threads(int threads, int processes = 1);
 
 /// Puts the module's parameters on `device` and its convolutions' weights in `format`.
 void place(torch::nn::Module& module, torch::Device device, MemoryFormat format);

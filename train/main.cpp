@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include "models/network_summary.hpp"
 #include "train/benchmark.hpp"
 #include "train/plot_command.hpp"
+#include "train/process_group.hpp"
 #include "train/provenance.hpp"
 #include "train/run_folder.hpp"
 #include "train/train_config.hpp"
@@ -22,6 +24,7 @@ constexpr const char* kExamples =
     "  alight-train --config configs/train/demo.yaml --output runs/demo\n"
     "  alight-train --config configs/train/demo.yaml --output runs/longer --set train.epochs=30\n"
     "  alight-train --resume runs/demo\n"
+    "  scripts/launch.sh 4 --config configs/train/demo.yaml --output runs/demo    (four processes)\n"
     "  alight-train --config configs/train/paper.yaml --print-model\n"
     "  alight-train --config configs/train/paper.yaml --print-config\n"
     "  alight-train --config configs/train/default.yaml --benchmark\n"
@@ -75,16 +78,37 @@ void print_result(const ValidationReport& report) {
               report.altitude_plane.ground_truth.rmse_mm(), report.fill_at(0.3).ground_truth.rmse_mm());
 }
 
-int train(const TrainConfig& config, RunFolder& folder, bool resume) {
+ProcessGroup join_others(const TrainConfig& config) {
+  const ComputeConfig& c = config.compute;
+  const ProcessGroup group = ProcessGroup::from_environment(find_device(c.device).is_cuda(),
+                                                            std::chrono::seconds(c.distributed_timeout_s));
+  if (group.size() > 1) spdlog::info("{} processes share every batch", group.size());
+  if (group.rank() > 0) spdlog::set_level(spdlog::level::warn);  // rank 0 says it for all
+  return group;
+}
+
+/// Rank 0 makes it; the others find it there.
+RunFolder new_folder(const std::string& path, const TrainConfig& config, const ProcessGroup& group) {
+  if (group.rank() == 0) {
+    RunFolder folder(path);
+    folder.write("config.yaml", print_config(config));
+    folder.write("provenance.yaml", "git_revision: " + git_revision() + "\ndataset: " + config.dataset +
+                                        "\ndata_hash: " + data_hash(config.dataset) + "\n");
+  }
+  group.barrier();
+  return RunFolder(path, RunFolder::Open::kExisting);
+}
+
+int train(const TrainConfig& config, RunFolder& folder, const ProcessGroup& group, bool resume) {
   DatasetSource training(config.dataset, config.split, SplitPart::kTraining, /*with_dense=*/false);
   std::optional<DatasetSource> validation = validation_source(config);
-  Trainer trainer(config, training, validation ? &*validation : nullptr, folder);
+  Trainer trainer(config, training, validation ? &*validation : nullptr, folder, group);
   if (resume) trainer.resume();
   spdlog::info("{} samples to learn from, {} held out, {} threads", training.size(),
                validation ? validation->size() : 0, at::get_num_threads());
   trainer.run();
   if (const auto report = trainer.evaluate_best()) print_result(*report);
-  std::printf("wrote %s\n", folder.file("best.pt").string().c_str());
+  if (group.rank() == 0) std::printf("wrote %s\n", folder.file("best.pt").string().c_str());
   return kExitOk;
 }
 
@@ -101,7 +125,8 @@ int resume(const Options& options) {
         "--resume takes the run's own configuration and folder; leave out --config and --output");
   }
   RunFolder folder(options.resume, RunFolder::Open::kExisting);
-  return train(load_config<TrainConfig>(folder.file("config.yaml"), options.config.overrides), folder, true);
+  const auto config = load_config<TrainConfig>(folder.file("config.yaml"), options.config.overrides);
+  return train(config, folder, join_others(config), true);
 }
 
 int run(const Options& options) {
@@ -117,11 +142,9 @@ int run(const Options& options) {
   if (options.benchmark) return benchmark(config, options);
   if (options.output.empty())
     throw ConfigError("--output is missing: name the folder that the run is written to");
-  RunFolder folder(options.output);
-  folder.write("config.yaml", print_config(config));
-  folder.write("provenance.yaml", "git_revision: " + git_revision() + "\ndataset: " + config.dataset +
-                                      "\ndata_hash: " + data_hash(config.dataset) + "\n");
-  return train(config, folder, false);
+  const ProcessGroup group = join_others(config);
+  RunFolder folder = new_folder(options.output, config, group);
+  return train(config, folder, group, false);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "cli/progress_bar.hpp"
 #include "configs/errors.hpp"
 #include "train/network_pass.hpp"
+#include "train/sync_batch_norm.hpp"
 
 namespace alight {
 namespace {
@@ -21,14 +22,31 @@ std::string number(double value) {
   return text;
 }
 
-DepthCompletionNet make_network(const TrainConfig& config, torch::Device device) {
-  set_threads(config.compute.threads);
+DepthCompletionNet make_network(const TrainConfig& config, torch::Device device, const ProcessGroup& group) {
+  set_threads(config.compute.threads, group.place().local_size);
   // Numbers of 1e-39 say nothing and cost a hundred times what others do.
   at::globalContext().setFlushDenormal(true);
   torch::manual_seed(static_cast<std::uint64_t>(config.train.seed));
   DepthCompletionNet net(config.model);
+  if (group.size() > 1) {
+    synchronize_batch_norms(*net, [group](torch::Tensor& sum) { group.all_reduce_sum({sum}); });
+  }
   place(*net, device, config.compute.memory_format);
+  // Another processor may draw the same seed's weights a little differently.
+  group.broadcast(net->parameters());
   return net;
+}
+
+std::vector<torch::Tensor> gradients(const torch::nn::Module& module) {
+  std::vector<torch::Tensor> gradients;
+  for (const torch::Tensor& parameter : module.parameters()) gradients.push_back(parameter.grad());
+  return gradients;
+}
+
+void check_batch(int batch_size, int processes) {
+  if (batch_size % processes == 0) return;
+  throw ConfigError("train.batch_size: " + std::to_string(batch_size) + " samples do not divide among " +
+                    std::to_string(processes) + " processes; it is the size for all of them together");
 }
 
 std::vector<double> values(const LossTerms& terms) {
@@ -52,14 +70,17 @@ std::string epoch_file(int epoch) {
 }  // namespace
 
 Trainer::Trainer(const TrainConfig& config, SampleSource& training, SampleSource* validation,
-                 RunFolder& folder)
+                 RunFolder& folder, ProcessGroup group)
     : config_(config),
-      device_(find_device(config.compute.device)),
+      group_(std::move(group)),
+      device_(find_device(config.compute.device, group_.place().local_rank)),
       cache_(training, static_cast<std::size_t>(config.train.cache_mb) << 20U),
       validation_(validation),
       folder_(folder),
-      net_(make_network(config, device_)),
+      net_(make_network(config, device_, group_)),
       flying_(net_) {
+  check_batch(config_.train.batch_size, group_.size());
+  group_.expect_same("the number of training samples", static_cast<std::int64_t>(training.size()));
   if (config_.train.image_encoder_weights) load_image_encoder(*config_.train.image_encoder_weights, net_);
   if (config_.optimizer.average_decay > 0) {
     flying_ = DepthCompletionNet(config_.model);
@@ -73,21 +94,21 @@ Trainer::Trainer(const TrainConfig& config, SampleSource& training, SampleSource
 }
 
 void Trainer::resume() {
-  if (!folder_.has("last.pt")) {
+  if (folder_.has("last.pt")) {
+    progress_ = load_training(folder_.file("last.pt"), flying_, {net_, &optimizer_->adam()});
+    spdlog::info("goes on after epoch {}, step {}", progress_.epoch, progress_.step);
+  } else {
     spdlog::info("{}: no last.pt yet, the run starts anew", folder_.path().string());
-    folder_.keep_metrics(0);
-    return;
   }
-  progress_ = load_training(folder_.file("last.pt"), flying_, {net_, &optimizer_->adam()});
-  folder_.keep_metrics(progress_.epoch);
-  spdlog::info("goes on after epoch {}, step {}", progress_.epoch, progress_.step);
+  group_.expect_same("the step to go on from", progress_.step);
+  if (writes()) folder_.keep_metrics(progress_.epoch);
 }
 
 BatchLoader Trainer::loader(int epoch, std::size_t first_batch) {
   const TrainingLoopConfig& c = config_.train;
   return {cache_,
           {c.batch_size, c.steps_per_epoch, c.crop_px, c.workers, static_cast<std::uint64_t>(c.seed),
-           config_.augmentation},
+           config_.augmentation, group_.rank(), group_.size()},
           epoch,
           first_batch};
 }
@@ -96,8 +117,9 @@ std::int64_t Trainer::steps_per_epoch() {
   return static_cast<std::int64_t>(loader(1, 0).batches()) / config_.optimizer.accumulate;
 }
 
-/// @param place of the batch's first sample among all of the step's
+/// @param place among all of the step's samples of the batch's first, of whichever process
 LossTerms Trainer::losses_of(const Batch& batch, std::int64_t place) {
+  place += group_.rank() * static_cast<std::int64_t>(batch.indices.size());
   const NetworkInput input =
       sample_density(batch.left, batch.right, batch.sparse_m, batch.offset_s, config_.density,
                      {static_cast<std::uint64_t>(config_.train.seed), progress_.step, place});
@@ -131,9 +153,10 @@ void Trainer::train_step(const std::function<Batch()>& next_batch, int epoch, st
     const LossTerms terms = losses_of(batch, static_cast<std::int64_t>(i) * config_.train.batch_size);
     check_finite(terms, batch);
     (terms.total / count).backward();
-    const std::vector<double> losses = values(terms);
+    const std::vector<double> losses = group_.mean(values(terms));
     for (std::size_t k = 0; k < kTerms; ++k) progress_.epoch_losses[k] += losses[k] / count;
   }
+  group_.all_reduce_mean(gradients(*net_));
   const std::int64_t total_steps = config_.train.epochs * steps_an_epoch;
   learning_rate_ = config_.optimizer.learning_rate *
                    learning_rate_factor(config_.schedule, epoch, progress_.step, total_steps);
@@ -159,34 +182,42 @@ void Trainer::train_epoch(int epoch) {
       loader(epoch, static_cast<std::size_t>(progress_.epoch_step * config_.optimizer.accumulate));
   char label[48];
   std::snprintf(label, sizeof label, "epoch %d/%d", epoch, c.epochs);
-  ProgressBar bar(label, (steps - progress_.epoch_step) * images_a_step, "images");
+  std::optional<ProgressBar> bar;
+  if (writes()) bar.emplace(label, (steps - progress_.epoch_step) * images_a_step, "images");
   net_->train();
   while (progress_.epoch_step < steps) {
     train_step([&] { return *batches.next(); }, epoch, steps);
     ++progress_.epoch_step;
-    bar.advance(images_a_step, describe(mean_losses()));
+    if (bar) bar->advance(images_a_step, describe(mean_losses()));
     if (c.save_every_steps > 0 && progress_.step % c.save_every_steps == 0) save("last.pt");
   }
 }
 
+/// Rank 0's report; empty on the others.
 std::optional<ValidationReport> Trainer::validate_epoch() {
-  if (validation_ == nullptr) return std::nullopt;
-  return validate(flying_, *validation_, spread(validation_->size(), config_.validation.samples),
-                  config_.validation, static_cast<std::uint64_t>(config_.train.seed));
+  std::optional<ValidationReport> report;
+  if (validation_ == nullptr) return report;
+  group_.on_first_rank([&](const std::function<void()>& alive) {
+    report = validate(flying_, *validation_, spread(validation_->size(), config_.validation.samples),
+                      config_.validation, static_cast<std::uint64_t>(config_.train.seed), alive);
+  });
+  return report;
 }
 
 void Trainer::save(const std::string& name) {
+  if (!writes()) return;
   save_checkpoint(folder_.file(name), flying_, progress_, {net_, &optimizer_->adam()});
 }
 
 void Trainer::finish_epoch(int epoch, double seconds) {
   const std::optional<ValidationReport> report = validate_epoch();
   // metrics.csv before last.pt: a run that is killed in between writes the row once more, and never loses it.
-  write_metrics(epoch, report, seconds);
-  const bool best = !report || report->score_mm() < progress_.best_score;
+  if (writes()) write_metrics(epoch, report, seconds);
+  const double score = group_.of_first_rank(report ? report->score_mm() : progress_.best_score);
+  const bool best = validation_ == nullptr || score < progress_.best_score;
   if (best) {
     progress_.best_epoch = epoch;
-    if (report) progress_.best_score = report->score_mm();
+    progress_.best_score = score;
   }
   progress_.epoch = epoch;
   progress_.epoch_step = 0;
@@ -234,12 +265,16 @@ void Trainer::write_events(const std::vector<std::string>& names, const std::vec
   events_->flush();
 }
 
-void Trainer::run() {
-  const TrainingLoopConfig& c = config_.train;
+void Trainer::open_events() {
   const bool resumed = progress_.step > 0;
   events_.emplace(folder_.path(), resumed ? std::optional(progress_.step) : std::nullopt);
   events_->describe(progress_.step, progress_.train_config,
                     folder_.has(kProvenanceFile) ? folder_.read(kProvenanceFile) : std::string());
+}
+
+void Trainer::run() {
+  const TrainingLoopConfig& c = config_.train;
+  if (writes()) open_events();
   for (auto epoch = static_cast<int>(progress_.epoch) + 1; epoch <= c.epochs; ++epoch) {
     if (c.early_stop_epochs > 0 && progress_.epoch - progress_.best_epoch >= c.early_stop_epochs) {
       spdlog::info("no better validation for {} epochs: the run ends early", c.early_stop_epochs);
@@ -252,7 +287,7 @@ void Trainer::run() {
 }
 
 std::optional<ValidationReport> Trainer::evaluate_best() {
-  if (validation_ == nullptr) return std::nullopt;
+  if (validation_ == nullptr || !writes()) return std::nullopt;
   const LoadedNetwork best = load_network(folder_.file("best.pt"), device_);
   const std::vector<std::size_t> samples = spread(validation_->size(), config_.validation.final_samples);
   ProgressBar bar("validation", static_cast<std::int64_t>(samples.size()), "images");

@@ -12,6 +12,7 @@
 #include "models/depth_completion_net.hpp"
 #include "train/batch.hpp"
 #include "train/batch_loader.hpp"
+#include "train/process_group.hpp"
 #include "train/run_events.hpp"
 #include "train/run_folder.hpp"
 #include "train/sample_cache.hpp"
@@ -22,11 +23,17 @@ namespace alight {
 
 /// Mixed-density training (paper 3.2 and 4.1). Same seed and number of threads: same weights, bit for bit, whether the
 /// run was interrupted or not (float32).
+///
+/// Several processes share every batch: each learns from its part, gradients and losses are averaged, batch normalisation
+/// sees the whole batch. That is the training of one process but for rounding, and but for samples without a pixel that
+/// counts: a loss averages over the others of its part. Rank 0 alone validates and writes.
 class Trainer {
  public:
   /// Sets torch's seed and threads and makes the network. @param validation held-out samples, or null
-  /// @throws ConfigError for a device that is not there
-  Trainer(const TrainConfig& config, SampleSource& training, SampleSource* validation, RunFolder& folder);
+  /// @param group whose processes train together @throws ConfigError for a device that is not there, or a batch that
+  /// cannot be shared, DataError as ProcessGroup
+  Trainer(const TrainConfig& config, SampleSource& training, SampleSource* validation, RunFolder& folder,
+          ProcessGroup group = {});
 
   /// Goes on where the run folder's last.pt stands; a run that never wrote one starts anew. Rows of metrics.csv that
   /// came after last.pt are dropped. @throws DataError as load_training
@@ -36,7 +43,8 @@ class Trainer {
   /// and metrics.csv. @throws DataError naming step, samples and term if a loss is not finite
   void run();
 
-  /// The best network on final_samples of the held-out samples; writes validation.txt. Empty without validation.
+  /// The best network on final_samples of the held-out samples; writes validation.txt. Empty without validation
+  /// and on other processes than rank 0.
   std::optional<ValidationReport> evaluate_best();
 
   /// The pieces of run(), public so that the benchmark times them and no copy of them: the batches of an epoch, and one
@@ -57,12 +65,15 @@ class Trainer {
   void check_finite(const LossTerms& terms, const Batch& batch) const;
   void finish_epoch(int epoch, double seconds);
   void write_metrics(int epoch, const std::optional<ValidationReport>& report, double seconds);
+  void open_events();
   void write_events(const std::vector<std::string>& names, const std::vector<double>& values);
   std::optional<ValidationReport> validate_epoch();
   void save(const std::string& name);
+  bool writes() const { return group_.rank() == 0; }
   Losses mean_losses() const;
 
   TrainConfig config_;
+  ProcessGroup group_;
   torch::Device device_;
   SampleCache cache_;
   SampleSource* validation_;

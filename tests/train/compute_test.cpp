@@ -1,5 +1,7 @@
 #include "train/compute.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
@@ -14,6 +16,19 @@ TEST(Compute, FindsTheDevicesThatThereAre) {
   if (!torch::cuda::is_available()) {
     EXPECT_THROW(find_device("cuda:0"), ConfigError);
   }
+}
+
+TEST(Compute, ProcessesOfAMachineShareItsCores) {
+  const int before = at::get_num_threads();
+  set_threads(0);
+  const int cores = at::get_num_threads();
+  set_threads(0, 2);
+  EXPECT_EQ(at::get_num_threads(), std::max(1, cores / 2));
+  set_threads(0, 1000 * cores);
+  EXPECT_EQ(at::get_num_threads(), 1);
+  set_threads(3, 2);
+  EXPECT_EQ(at::get_num_threads(), 3) << "what the user sets is for each of them";
+  set_threads(before);
 }
 
 TEST(Compute, PrecisionHoldsInsideTheScopeOnly) {
