@@ -8,6 +8,7 @@
 
 #include "configs/config_reader.hpp"
 #include "infer/depth_engine.hpp"
+#include "infer/health/health_report.hpp"
 #include "infer/landing/site_selection.hpp"
 #include "infer/landing/site_tracker.hpp"
 
@@ -33,6 +34,7 @@ struct FrameReport {
   std::optional<SiteSelection> selection;  ///< absent without trusted depth
   SiteDecision decision;
   std::optional<ImageSite> image_site;  ///< decision.site in the image
+  HealthReport health;
 
   /// Why there is no site, or what the site is.
   std::string site_reason() const;

@@ -1,0 +1,76 @@
+#include "infer/onboard/engine_runner.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace alight {
+
+EngineRunner::EngineRunner(const MessageQueueConfig& queue, std::unique_ptr<LandingPipeline> pipeline,
+                           std::vector<FrameSink*> sinks)
+    : queue_(queue), pipeline_(std::move(pipeline)), sinks_(std::move(sinks)), thread_([this] { run(); }) {}
+
+EngineRunner::~EngineRunner() {
+  abandoned_ = true;
+  queue_.close();
+  if (thread_.joinable()) thread_.join();
+}
+
+void EngineRunner::finish() {
+  queue_.close();
+  if (thread_.joinable()) thread_.join();
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+bool EngineRunner::failed() const {
+  const std::lock_guard lock(mutex_);
+  return failure_ != nullptr;
+}
+
+RunnerStatistics EngineRunner::statistics() const {
+  RunnerStatistics statistics;
+  {
+    const std::lock_guard lock(mutex_);
+    statistics = statistics_;
+  }
+  for (const auto& [reason, count] : queue_.dropped()) statistics.dropped[reason] += count;
+  statistics.queued = queue_.size();
+  return statistics;
+}
+
+void EngineRunner::run() {
+  try {
+    while (auto item = queue_.pop()) {
+      if (abandoned_) return;
+      note_arrival(*item);
+      for (FrameSink* sink : sinks_) sink->on_message(item->message);
+      deliver(pipeline_->add(item->message));
+    }
+    if (!abandoned_) deliver(pipeline_->finish());
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = std::current_exception();
+    queue_.close();
+  }
+}
+
+void EngineRunner::note_arrival(const MessageQueue::Item& item) {
+  if (const auto* frame = std::get_if<StereoFrame>(&item.message))
+    arrivals_.emplace(frame->t_ns, item.pushed);
+}
+
+void EngineRunner::deliver(const std::vector<FrameReport>& frames) {
+  for (const FrameReport& frame : frames) {
+    for (FrameSink* sink : sinks_) sink->on_frame(frame);
+    const std::lock_guard lock(mutex_);
+    ++statistics_.images;
+    if (const auto arrival = arrivals_.find(frame.depth.t_ns); arrival != arrivals_.end()) {
+      statistics_.last_latency_ms = milliseconds(arrival->second, steady_now());
+      statistics_.max_latency_ms = std::max(statistics_.max_latency_ms, statistics_.last_latency_ms);
+      arrivals_.erase(arrival);
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  statistics_.dropped = pipeline_->engine().dropped();
+}
+
+}  // namespace alight

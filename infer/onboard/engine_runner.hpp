@@ -1,0 +1,68 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "infer/landing_pipeline.hpp"
+#include "infer/onboard/frame_sink.hpp"
+#include "infer/onboard/message_queue.hpp"
+
+namespace alight {
+
+/// How a live run is doing.
+struct RunnerStatistics {
+  std::int64_t images = 0;                      ///< results so far
+  std::map<std::string, std::int64_t> dropped;  ///< messages and points left out: reason -> count
+  std::size_t queued = 0;                       ///< messages waiting now
+  double last_latency_ms =
+      0;  ///< from the image's arrival in the queue to its result, on this computer's clock
+  double max_latency_ms = 0;
+};
+
+/// The engine in a thread of its own: what a live node, the ground station and a replay in real time run. Messages go in
+/// from any thread; results go to the sinks. The same messages give the same results as LandingPipeline called directly,
+/// as long as none is pushed out of the queue.
+class EngineRunner {
+ public:
+  /// Starts the thread. @param sinks outlive the runner
+  EngineRunner(const MessageQueueConfig& queue, std::unique_ptr<LandingPipeline> pipeline,
+               std::vector<FrameSink*> sinks);
+  EngineRunner(const EngineRunner&) = delete;
+  EngineRunner& operator=(const EngineRunner&) = delete;
+  /// Ends the thread after the message in work; what waits is lost.
+  ~EngineRunner();
+
+  /// Any thread; never waits.
+  void push(LogMessage message) { queue_.push(std::move(message)); }
+  /// Works off what waits, gives every image its result and ends the thread.
+  /// @throws what the engine or a sink threw on its thread
+  void finish();
+  /// The engine or a sink has failed; finish() says why.
+  bool failed() const;
+
+  RunnerStatistics statistics() const;
+
+ private:
+  void run();
+  void deliver(const std::vector<FrameReport>& frames);
+  void note_arrival(const MessageQueue::Item& item);
+
+  MessageQueue queue_;
+  std::unique_ptr<LandingPipeline> pipeline_;
+  std::vector<FrameSink*> sinks_;
+  std::map<std::int64_t, SteadyTime> arrivals_;  // of images without a result yet, by their time
+  mutable std::mutex mutex_;
+  RunnerStatistics statistics_;
+  std::exception_ptr failure_;
+  std::atomic<bool> abandoned_{false};
+  std::thread thread_;
+};
+
+}  // namespace alight

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "dataset/messages/message_types.hpp"
+#include "infer/landing_pipeline.hpp"
+
+namespace alight {
+
+/// What is done with the results of a flight: written, sent, shown. Called on the engine's thread, so both calls return
+/// at once: whoever has more to do copies the report (its images are shared, not copied) and works elsewhere.
+class FrameSink {
+ public:
+  FrameSink() = default;
+  FrameSink(const FrameSink&) = delete;
+  FrameSink& operator=(const FrameSink&) = delete;
+  virtual ~FrameSink() = default;
+
+  /// Every message, just before the engine gets it.
+  virtual void on_message(const LogMessage& message) { static_cast<void>(message); }
+  /// Every result, in image order.
+  virtual void on_frame(const FrameReport& frame) = 0;
+};
+
+}  // namespace alight
