@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "models/box_mean.hpp"
+
 namespace alight {
 namespace {
 
@@ -30,11 +32,6 @@ torch::Tensor enlarge(const torch::Tensor& coarse, const torch::Tensor& like) {
       .index({Slice(), Slice(), Slice(None, like.size(2)), Slice(None, like.size(3))});
 }
 
-/// Mean of the 3x3 neighbourhood inside the map.
-torch::Tensor neighbourhood_mean(const torch::Tensor& x) {
-  return torch::avg_pool2d(x, 3, 1, 1, /*ceil_mode=*/false, /*count_include_pad=*/false);
-}
-
 }  // namespace
 
 SparseFill fill_pyramid(const torch::Tensor& value, const torch::Tensor& valid, int smoothing) {
@@ -55,7 +52,7 @@ SparseFill fill_pyramid(const torch::Tensor& value, const torch::Tensor& valid, 
     const torch::Tensor mean = level.weighted_value / level.weight.clamp_min(1e-12);
     fill.value = torch::where(known, mean, fill.value);
     for (int pass = 0; pass < smoothing; ++pass) {
-      fill.value = torch::where(known, mean, neighbourhood_mean(fill.value));
+      fill.value = torch::where(known, mean, box_mean(fill.value, 3));
     }
     const double coarseness = static_cast<double>(i) / coarsest;
     fill.coarseness = torch::where(known, torch::full_like(fill.coarseness, coarseness), fill.coarseness);

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "models/box_mean.hpp"
+
 namespace alight {
 namespace {
 
@@ -13,10 +15,6 @@ constexpr std::int64_t kLocalMean_px = 15;  // eyes differ in brightness; what i
 /// Variance of the noise in a window's mean product over that of ln(depth / prior) on real ground: the ridge term.
 constexpr double kRidge = 1e-4;
 constexpr double kLargestCue = 1.5;
-
-torch::Tensor box_mean(const torch::Tensor& x, std::int64_t side_px) {
-  return torch::avg_pool2d(x, side_px, 1, side_px / 2, /*ceil_mode=*/false, /*count_include_pad=*/false);
-}
 
 torch::Tensor grey(const torch::Tensor& image) { return image.mean(1, /*keepdim=*/true); }
 
