@@ -69,7 +69,7 @@ std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const Rep
     throw ConfigError(
         "no network: none came with this program; name one with --checkpoint, or say --lidar-only");
   }
-  return make_network_predictor(*checkpoint, engine_rig(config.engine, rig), config.threads);
+  return make_network_predictor(*checkpoint, engine_rig(config.engine, rig), config.network);
 }
 
 int run_benchmark(const Options& options, const ReplayConfig& config, const Rig& rig) {

@@ -69,10 +69,10 @@ class ReplayOutput {
 void bind(Binder& b, ReplayConfig& c) {
   b.field("rig", c.rig, "sensors and their mounting");
   b.field("checkpoint", c.checkpoint, "the trained network; none: the one that came with the program");
-  b.field("threads", c.threads, "processor threads of the network; 0: all", between(0, 1024));
   b.field("overlay_every", c.overlay_every, "a picture every so many images; 0: none", at_least(0));
   b.field("write_timings", c.write_timings, "stages_ms in results.jsonl, which differs from run to run");
   b.section("log", c.log, "how the log is read");
+  b.section("network", c.network, "where and how the network runs");
   b.section("engine", c.engine, "how messages become depth");
   b.section("landing", c.landing, "how depth becomes a landing site");
 }

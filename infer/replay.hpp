@@ -8,6 +8,7 @@
 #include "configs/config_reader.hpp"
 #include "dataset/flight_log.hpp"
 #include "infer/landing_pipeline.hpp"
+#include "infer/network_config.hpp"
 #include "infer/result_writer.hpp"
 
 namespace alight {
@@ -16,8 +17,8 @@ namespace alight {
 struct ReplayConfig {
   std::string rig = "configs/rigs/paper.yaml";
   std::optional<std::string> checkpoint;  ///< none: the one that came with the program
-  int threads = 0;                        ///< for the network; 0: all
-  int overlay_every = 20;                 ///< a picture every so many images; 0: none
+  NetworkConfig network;
+  int overlay_every = 20;     ///< a picture every so many images; 0: none
   bool write_timings = true;  ///< stages_ms in results.jsonl; without, runs are equal byte for byte
   LogConfig log;
   DepthEngineConfig engine;

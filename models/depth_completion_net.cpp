@@ -51,7 +51,9 @@ torch::Tensor pad(const torch::Tensor& x, int stride, bool replicate) {
   const std::int64_t below = (stride - x.size(2) % stride) % stride;
   if (right == 0 && below == 0) return x;
   auto options = F::PadFuncOptions({0, right, 0, below});
-  return replicate ? F::pad(x, options.mode(torch::kReplicate)) : F::pad(x, options);
+  if (!replicate) return F::pad(x, options);
+  // LibTorch 1.13 replicates float32 alone on a processor.
+  return F::pad(x.to(torch::kFloat32), options.mode(torch::kReplicate)).to(x.dtype());
 }
 
 torch::Tensor enlarge_to(const torch::Tensor& x, std::int64_t height, std::int64_t width) {

@@ -5,8 +5,6 @@
 
 #include <ATen/autocast_mode.h>
 
-#include "configs/errors.hpp"
-
 namespace alight {
 
 void bind(Binder& b, ComputeConfig& c) {
@@ -21,29 +19,6 @@ void bind(Binder& b, ComputeConfig& c) {
           at_least(0));
   b.field("distributed_timeout_s", c.distributed_timeout_s,
           "training with several processes: longest wait for another one, seconds", between(1, 3600));
-}
-
-torch::Device find_device(const std::string& name, int process) {
-  const bool cuda = torch::cuda::is_available();
-  if (name == "auto") return cuda ? find_device("cuda", process) : torch::Device(torch::kCPU);
-  if (name == "cpu") return torch::kCPU;
-  if (name.rfind("cuda", 0) != 0) {
-    throw ConfigError("compute.device: \"" + name + "\" is no device; expected auto, cpu, cuda or cuda:N");
-  }
-  if (!cuda)
-    throw ConfigError("compute.device: " + name +
-                      ", but this LibTorch finds no CUDA device; use cpu or auto");
-  if (name == "cuda" && process > 0) {
-    if (process < static_cast<int>(torch::cuda::device_count()))
-      return {torch::kCUDA, static_cast<torch::DeviceIndex>(process)};
-    throw ConfigError("compute.device: process " + std::to_string(process) +
-                      " of this machine finds no CUDA device of its own; start as many processes as devices");
-  }
-  try {
-    return torch::Device(name);
-  } catch (const c10::Error&) {
-    throw ConfigError("compute.device: \"" + name + "\" is no device; expected cuda or cuda:N");
-  }
 }
 
 void set_threads(int threads, int processes) {

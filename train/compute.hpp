@@ -5,6 +5,7 @@
 #include <torch/torch.h>
 
 #include "configs/config_reader.hpp"
+#include "models/device.hpp"
 
 namespace alight {
 
@@ -23,11 +24,6 @@ struct ComputeConfig {
   int distributed_timeout_s = 30;  ///< longest wait for another process
 };
 void bind(Binder& b, ComputeConfig& c);
-
-/// The device that `name` means on this machine; `auto` takes CUDA where there is one. Where several processes share
-/// a machine, each takes the CUDA device of its number. @param process its number, from 0
-/// @throws ConfigError for another name, or CUDA that is not there
-torch::Device find_device(const std::string& name, int process = 0);
 
 /// Sets the number of LibTorch's threads. LibTorch starts with half the cores.
 /// @param threads 0: the cores' share of one of `processes`

@@ -14,6 +14,8 @@ namespace fs = std::filesystem;
 
 const PinholeIntrinsics kCamera{88, 88, 34.5, 25.5, 70, 52};
 
+const NetworkConfig kFloat32{"cpu", NetworkPrecision::kFloat32, 1};
+
 RectifiedRig rig() {
   RectifiedRig rig;
   rig.intrinsics = kCamera;
@@ -47,7 +49,7 @@ TEST_P(NetworkPredictor, IsTheNetworkWithPlaneDepthOnBothSides) {
   for (int i = 0; i < 60; ++i)
     sparse.at<float>(i * 7 % 52, i * 11 % 70) = 10.0F + 0.1F * static_cast<float>(i);
 
-  const auto predictor = make_network_predictor(path_, rig(), 1);
+  const auto predictor = make_network_predictor(path_, rig(), kFloat32);
   const auto encoded = predictor->encode({image});
   const cv::Mat predicted = predictor->refine(*encoded, sparse);
   ASSERT_EQ(predicted.type(), CV_32FC1);
@@ -85,7 +87,7 @@ TEST(NetworkPredictorPrior, HeightAttitudeAndRightImageReachTheNetwork) {
   config.stereo = true;
   const fs::path path = fs::path(testing::TempDir()) / "alight_stereo_predictor.pt";
   save_checkpoint(path, DepthCompletionNet(config));
-  const auto predictor = make_network_predictor(path, rig(), 1);
+  const auto predictor = make_network_predictor(path, rig(), kFloat32);
   PredictorView view{cv::Mat(52, 70, CV_8UC3)};
   cv::RNG(1).fill(view.left, cv::RNG::UNIFORM, 0, 256);
   const auto depth_m = [&] {
@@ -103,7 +105,7 @@ TEST(NetworkPredictorPrior, HeightAttitudeAndRightImageReachTheNetwork) {
 }
 
 TEST_P(NetworkPredictor, GreyImagesWorkAndWrongSizesAreRefused) {
-  const auto predictor = make_network_predictor(path_, rig(), 0);
+  const auto predictor = make_network_predictor(path_, rig(), kFloat32);
   const auto encoded = predictor->encode({cv::Mat(52, 70, CV_8UC1, cv::Scalar(80))});
   const cv::Mat predicted = predictor->refine(*encoded, cv::Mat::zeros(52, 70, CV_32FC1));
   EXPECT_EQ(cv::countNonZero(predicted > 0), 52 * 70);
@@ -111,8 +113,28 @@ TEST_P(NetworkPredictor, GreyImagesWorkAndWrongSizesAreRefused) {
   EXPECT_THROW(predictor->refine(*encoded, cv::Mat::zeros(64, 64, CV_32FC1)), std::invalid_argument);
 }
 
+TEST_P(NetworkPredictor, HalfTheBitsChangeDepthByLessThanAFiftieth) {
+  cv::Mat image(52, 70, CV_8UC3);
+  cv::RNG(1).fill(image, cv::RNG::UNIFORM, 0, 256);
+  cv::Mat sparse = cv::Mat::zeros(52, 70, CV_32FC1);
+  for (int i = 0; i < 60; ++i)
+    sparse.at<float>(i * 7 % 52, i * 11 % 70) = 10.0F + 0.1F * static_cast<float>(i);
+  const auto depth_m = [&](NetworkPrecision precision) {
+    const auto predictor = make_network_predictor(path_, rig(), {"cpu", precision, 1});
+    return predictor->refine(*predictor->encode({image}), sparse);
+  };
+  const cv::Mat exact = depth_m(NetworkPrecision::kFloat32);
+  const cv::Mat half = depth_m(NetworkPrecision::kBfloat16);
+  EXPECT_LT(cv::norm(cv::Mat(half / exact - 1), cv::NORM_INF), 0.02);
+  EXPECT_GT(cv::norm(half, exact, cv::NORM_INF), 0) << "nothing was computed in bfloat16";
+}
+
+TEST_P(NetworkPredictor, Float16NeedsADeviceThatHasIt) {
+  EXPECT_THROW(make_network_predictor(path_, rig(), {"cpu", NetworkPrecision::kFloat16, 1}), ConfigError);
+}
+
 TEST(NetworkPredictorFile, MissingIsADataError) {
-  EXPECT_THROW(make_network_predictor("/nowhere/net.pt", rig(), 1), DataError);
+  EXPECT_THROW(make_network_predictor("/nowhere/net.pt", rig(), kFloat32), DataError);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   if (!site.found()) return 1;
   alight::RectifiedRig rig;
   rig.intrinsics = camera;
-  if (argc > 1) alight::make_network_predictor(argv[1], rig, 0);
+  if (argc > 1) alight::make_network_predictor(argv[1], rig);
   std::printf("%s\n", alight::describe(site).c_str());
   return 0;
 }
