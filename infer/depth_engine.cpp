@@ -162,8 +162,12 @@ void DepthEngine::open(Entry& entry, const Eigen::Isometry3d& T_world_camera) {
   }
   view.height_m = heights_.at_or_latest(entry.t_ns, kMaxHeightAge_ns);
   entry.frame.reset();
-  entry.task = std::make_unique<ImageTask>(config_.image, rig_, predictor_.get(), entry.t_ns, std::move(view),
-                                           T_world_camera, std::move(stages_ms));
+  int first_packets = 0;
+  bool ask_network = true;
+  begin_warm(first_packets, ask_network);
+  entry.task =
+      std::make_unique<ImageTask>(config_.image, rig_, ask_network ? predictor_.get() : nullptr, entry.t_ns,
+                                  std::move(view), T_world_camera, std::move(stages_ms), first_packets);
   if (config_.history_s > 0) {
     for (const auto& packet : accumulator_.before(entry.t_ns, config_.history_s, config_.history_s + 0.5)) {
       entry.task->offer(packet);
@@ -191,7 +195,24 @@ void DepthEngine::advance_tasks() {
 
 void DepthEngine::conclude(Entry& entry) {
   entry.result = entry.task->take();
+  learn_from(*entry.task, entry.result->source);
   entry.task.reset();
+}
+
+void DepthEngine::begin_warm(int& first_packets, bool& ask_network) {
+  const bool cold = warmth_.images >= config_.image.warm_images;
+  warmth_.images = cold ? 0 : warmth_.images + 1;
+  first_packets = cold && !warmth_.fell_back ? warmth_.packets / 2 : warmth_.packets;
+  // Without LiDAR there is nothing to interpolate.
+  ask_network = cold || !warmth_.fell_back || lidar_silent();
+}
+
+void DepthEngine::learn_from(const ImageTask& task, DepthSource source) {
+  if (config_.image.warm_images == 0 || source == DepthSource::kNone || !task.asked_network()) return;
+  const bool fell_back = source == DepthSource::kFallback;
+  if (fell_back || task.packets_fed() > warmth_.packets) warmth_.images = 0;
+  warmth_.packets = task.packets_fed();
+  warmth_.fell_back = fell_back;
 }
 
 void DepthEngine::give_up(Entry& entry, const std::string& reason) {

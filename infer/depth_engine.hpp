@@ -98,6 +98,8 @@ class DepthEngine {
   void conclude(Entry& entry);
   bool lidar_silent() const;
   int open_count() const;
+  void begin_warm(int& first_packets, bool& ask_network);
+  void learn_from(const ImageTask& task, DepthSource source);
 
   DepthEngineConfig config_;
   StereoRectifier rectifier_;
@@ -114,6 +116,12 @@ class DepthEngine {
   std::optional<std::int64_t> last_image_ns_;
   std::int64_t lidar_ns_ = 0;  // end of the latest packet, or the first message
   std::optional<std::int64_t> placed_end_ns_;
+  /// What the images before needed; see ImageTaskConfig::warm_images.
+  struct Warmth {
+    int packets = 0;
+    bool fell_back = false;
+    int images = 0;  // that began with it
+  } warmth_;
   std::map<std::string, std::int64_t> dropped_;
 };
 

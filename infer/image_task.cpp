@@ -28,6 +28,10 @@ void bind(Binder& b, ImageTaskConfig& c) {
   b.check("min_fallback_s", c.min_fallback_s <= c.max_accumulation_s, "must not exceed max_accumulation_s");
   b.field("step_growth", c.step_growth, "factor by which packets grow between predictions; 1: every packet",
           between(1, 100));
+  b.field("warm_images", c.warm_images,
+          "images that begin with the packets that the one before needed, until one begins with half; 0: all "
+          "begin alone",
+          between(0, 1000));
   b.field("lidar_half_fov_deg", c.lidar_half_fov_deg, "half the opening of the LiDAR's circle",
           between(0.1, 90));
   b.field("min_depth_m", c.min_depth_m, "nearer depth is unknown", between(0.01, 1000));
@@ -39,7 +43,7 @@ void bind(Binder& b, ImageTaskConfig& c) {
 
 ImageTask::ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, DepthPredictor* predictor,
                      std::int64_t t_ns, PredictorView view, const Eigen::Isometry3d& T_world_camera,
-                     StageTimes stages_ms)
+                     StageTimes stages_ms, int first_packets)
     : config_(config),
       rig_(rig),
       predictor_(predictor),
@@ -47,7 +51,8 @@ ImageTask::ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, Dep
       stereo_test_(view.left, view.right, rig),
       view_(std::move(view)),
       known_(SparseDepth::empty(rig.intrinsics.size())),
-      fed_(SparseDepth::empty(rig.intrinsics.size())) {
+      fed_(SparseDepth::empty(rig.intrinsics.size())),
+      first_packets_(first_packets) {
   result_.t_ns = t_ns;
   result_.left = view_.left;
   view_.down_camera = T_world_camera.linear().transpose() * -Eigen::Vector3d::UnitZ();
@@ -120,6 +125,7 @@ void ImageTask::predict() {
   holdout_done_ = false;
   result_.holdout = {};
   result_.holdout_verdict = Verdict::kNoEvidence;
+  evaluate_holdout();
   evaluate_stereo();
 }
 
@@ -135,10 +141,12 @@ void ImageTask::evaluate_stereo() {
   }
   result_.stereo = stereo_test_.score(prediction, lidar_view_ ? &*lidar_view_ : nullptr);
   const StereoTestConfig& test = config_.self_evaluation.stereo;
-  if (test.probe > 0 && paper_accepts(result_.stereo, test)) {
-    result_.stereo.peak = stereo_test_.peak(prediction_m_, prediction, test.probe);
-  }
-  result_.stereo_verdict = judge(result_.stereo, test);
+  const bool refused =
+      config_.self_evaluation.decide_by == DecideBy::kBoth && result_.holdout_verdict == Verdict::kReject;
+  const bool probe = test.probe > 0 && paper_accepts(result_.stereo, test);
+  if (probe && !refused) result_.stereo.peak = stereo_test_.peak(prediction_m_, prediction, test.probe);
+  // The probe costs as much as the rest of the test, and nothing could be accepted any more.
+  result_.stereo_verdict = probe && refused ? Verdict::kNoEvidence : judge(result_.stereo, test);
 }
 
 void ImageTask::evaluate_holdout() {
@@ -151,9 +159,19 @@ void ImageTask::evaluate_holdout() {
   holdout_done_ = true;
 }
 
+/// Whoever asks for the hold-out's word cannot trust a prediction from all the LiDAR that it may have.
+bool ImageTask::beyond_judgement(bool lidar_silent) const {
+  const DecideBy by = config_.self_evaluation.decide_by;
+  const bool holdout_decides = by == DecideBy::kLidarHoldout || (by == DecideBy::kBoth && !lidar_silent);
+  return holdout_decides && full() && waiting_.empty();
+}
+
 bool ImageTask::advance(bool lidar_silent) {
+  if (!predicted_ && fed_packets_ == 0) {
+    feed(std::min(first_packets_, static_cast<int>(waiting_.size()) - 1));
+  }
   while (!done_) {
-    if (predictor_ != nullptr) {
+    if (predictor_ != nullptr && !(result_.predictions > 0 && beyond_judgement(lidar_silent))) {
       if (!predicted_) predict();
       evaluate_holdout();
       if (decide(result_.stereo_verdict, result_.holdout_verdict, lidar_silent,
@@ -163,7 +181,7 @@ bool ImageTask::advance(bool lidar_silent) {
       }
     }
     if (full()) {
-      fall_back(predictor_ != nullptr ? verdicts() : "LiDAR alone");
+      fall_back(predictor_ != nullptr ? verdicts() : "LiDAR alone, no network asked");
     } else if (const int packets = packets_for_next_step(); packets > 0) {
       feed(packets);
     } else {

@@ -24,6 +24,11 @@ struct ImageTaskConfig {
   /// Between two predictions the number of packets grows by this factor, and by one at least. 1: predict at every
   /// packet, as the paper does; 2: at 0, 1, 2, 4, 8 packets, which bounds the work on an unfamiliar scene.
   double step_growth = 2.0;
+  /// What was needed a twentieth of a second ago is needed now: so many images begin with the packets that the one before
+  /// them needed, then one begins with half of them, so that the number can shrink to the image alone. After an image that
+  /// fell back, so many are interpolated without a prediction, which would be refused as well. Most images then cost one
+  /// prediction. 0: every image begins alone, the paper.
+  int warm_images = 3;
   double lidar_half_fov_deg = 19.174;  ///< the Mid-40's circle
   double min_depth_m = 0.5;
   double max_depth_m = 150.0;
@@ -37,11 +42,12 @@ void bind(Binder& b, ImageTaskConfig& c);
 /// compared with the prediction (hold-out), then fed. Every packet costs its own projections and nothing else.
 class ImageTask {
  public:
-  /// @param view rectified, cropped; `right` empty for mono; down_camera is set from the pose. @param predictor null: LiDAR alone, which waits for
-  /// max_accumulation_s and interpolates (paper 3.3, state 8)
+  /// @param view rectified, cropped; `right` empty for mono; down_camera is set from the pose. @param predictor null:
+  /// LiDAR alone, which waits for max_accumulation_s and interpolates (paper 3.3, state 8). @param first_packets fed before
+  /// the first prediction, as far as they are there and one is left to judge by
   ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, DepthPredictor* predictor,
             std::int64_t t_ns, PredictorView view, const Eigen::Isometry3d& T_world_camera,
-            StageTimes stages_ms);
+            StageTimes stages_ms, int first_packets = 0);
 
   /// Puts a packet at the end of the queue. Order of the calls is the order of feeding.
   void offer(WorldPacketPtr packet);
@@ -52,6 +58,8 @@ class ImageTask {
 
   std::int64_t t_ns() const { return result_.t_ns; }
   bool done() const { return done_; }
+  int packets_fed() const { return fed_packets_; }
+  bool asked_network() const { return predictor_ != nullptr; }
   /// Call once, when done.
   DepthResult take();
 
@@ -61,6 +69,7 @@ class ImageTask {
   int packets_for_next_step() const;
   int packets_wanted() const;
   bool full() const;
+  bool beyond_judgement(bool lidar_silent) const;
   void predict();
   void evaluate_stereo();
   void evaluate_holdout();
@@ -80,6 +89,7 @@ class ImageTask {
   std::deque<WorldPacketPtr> waiting_;
   SparseDepth known_;  // every point that came, fed or not: the reference of the stereo test
   SparseDepth fed_;
+  int first_packets_ = 0;
   int fed_packets_ = 0;
   double last_duration_s_ = 0;
   cv::Mat prediction_m_;

@@ -80,8 +80,9 @@ struct HoldoutTestConfig {
   /// Median of |error| / depth. 8 cm at 20 m: the lowest step that the site selection can tell from flat ground is 9 cm
   /// (TerrainConfig), so depth that is off by more is no basis for it.
   double max_median_relative = 0.004;
-  double max_rms_relative = 0.03;  ///< root mean square of error / depth, which sees wrong edges
-  int min_points = 100;            ///< fewer say nothing
+  double max_rms_relative =
+      0.015;  ///< root mean square of error / depth, which sees wrong edges (docs/self_evaluation.md)
+  int min_points = 100;  ///< fewer say nothing
 };
 void bind(Binder& b, HoldoutTestConfig& c);
 

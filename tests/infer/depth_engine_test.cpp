@@ -22,6 +22,7 @@ constexpr double kHeight_m = 6.0;
 /// Engine for the fakes' small images; `paper`: LiDAR after the image, a prediction per packet.
 DepthEngineConfig config_of(bool paper) {
   DepthEngineConfig config;
+  config.image.warm_images = 0;  // every image for itself, unless a test says otherwise
   config.width_px = 160;
   config.height_px = 144;
   if (paper) {
@@ -289,6 +290,44 @@ TEST(DepthEngine, BusyEngineSkipsWithAReason) {
   EXPECT_GE(worked_on, 3);
   EXPECT_LE(worked_on, 6) << "one image a second";
   EXPECT_EQ(worked_on + busy, static_cast<int>(out.results.size()));
+}
+
+/// Right from four packets on. Images begin where the one before ended, every fourth with half; in the end each costs one
+/// prediction, that one two.
+TEST(DepthEngine, WarmImagesBeginWhereTheLastOneEnded) {
+  LevelWorld world(kHeight_m);
+  DepthEngineConfig config = config_of(false);
+  config.image.warm_images = 3;
+  const auto messages = fakes::flight(world, {6.0});
+  const auto net =
+      std::make_shared<FakePredictor>([](int points) { return points > 5500 ? kHeight_m : 1.4 * kHeight_m; });
+  const Outcome out = run(config, messages, net);
+  expect_complete(out, messages);
+  std::map<int, int> predictions;
+  for (const DepthResult& result : out.results) {
+    if (result.t_ns < kStart_ns + 2000 * kMillisecond || result.source != DepthSource::kLidar) continue;
+    EXPECT_NEAR(result.accumulation_s, 0.4, 0.011);
+    ++predictions[result.predictions];
+  }
+  EXPECT_EQ(predictions.size(), 2U);
+  EXPECT_NEAR(predictions[1], 3 * predictions[2], 4);
+}
+
+TEST(DepthEngine, AfterAFallbackTheNetworkRests) {
+  LevelWorld world(kHeight_m);
+  DepthEngineConfig config = config_of(false);
+  config.image.warm_images = 3;
+  const auto messages = fakes::flight(world, {6.0});
+  const Outcome out = run(config, messages, always(1.3 * kHeight_m));
+  expect_complete(out, messages);
+  std::map<int, int> predictions;
+  for (const DepthResult& result : out.results) {
+    if (result.t_ns < kStart_ns + 2000 * kMillisecond || result.source != DepthSource::kFallback) continue;
+    EXPECT_NEAR(result.accumulation_s, 1.0, 0.011);
+    ++predictions[result.predictions];
+  }
+  EXPECT_NEAR(predictions[0], 3 * predictions[1], 4);
+  EXPECT_GT(predictions[1], 10);
 }
 
 TEST(DepthEngine, ImagesOutOfOrderGetTheirLine) {

@@ -203,9 +203,9 @@ TEST(Holdout, UnknownPredictionIsWhollyWrongAndFewPointsSayNothing) {
   EXPECT_EQ(scores.rms_relative, 1);
   EXPECT_EQ(judge(scores, {}), Verdict::kReject);
   EXPECT_EQ(judge(HoldoutScores{99, 0, 0, 0, 0}, {}), Verdict::kNoEvidence);
-  EXPECT_EQ(judge(HoldoutScores{100, 0, 0, 0.004, 0.03}, {}), Verdict::kAccept);
-  EXPECT_EQ(judge(HoldoutScores{100, 0, 0, 0.0041, 0.03}, {}), Verdict::kReject);
-  EXPECT_EQ(judge(HoldoutScores{100, 0, 0, 0.004, 0.031}, {}), Verdict::kReject);
+  EXPECT_EQ(judge(HoldoutScores{100, 0, 0, 0.004, 0.015}, {}), Verdict::kAccept);
+  EXPECT_EQ(judge(HoldoutScores{100, 0, 0, 0.0041, 0.015}, {}), Verdict::kReject);
+  EXPECT_EQ(judge(HoldoutScores{100, 0, 0, 0.004, 0.016}, {}), Verdict::kReject);
   EXPECT_EQ(compare_with_holdout(prediction, cv::Mat::zeros(10, 10, CV_32FC1), prediction).points, 0);
 }
 
