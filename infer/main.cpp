@@ -24,6 +24,7 @@ struct Options {
   std::string landing;
   bool lidar_only = false;
   bool benchmark = false;
+  ReplayPace pace;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -37,12 +38,18 @@ void add_options(CLI::App& app, Options& options) {
   app.add_flag("--lidar-only", options.lidar_only, "No network: interpolate the LiDAR of max_accumulation_s");
   app.add_flag("--benchmark", options.benchmark,
                "Print median and 95th percentile of every stage, on --log or on synthetic frames");
+  app.add_flag("--realtime", options.pace.realtime,
+               "Messages come when they came in flight; what the engine is too slow for is lost and counted");
+  app.add_option("--repeat", options.pace.rounds, "Replay the log so many times over")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
   app.footer(
       "Examples:\n"
       "  alight-infer --log flight.bag --output out/flight\n"
       "  alight-infer --config configs/infer/default.yaml --checkpoint runs/demo/best.pt --log flight.bag "
       "--output out/flight\n"
       "  alight-infer --log flight.bag --output out/lidar --lidar-only\n"
+      "  alight-infer --log flight.bag --realtime\n"
       "  alight-infer --checkpoint runs/demo/best.pt --benchmark\n"
       "  alight-infer --config configs/infer/default.yaml --set engine.history_s=0 --print-config\n"
       "Writes results.jsonl (a line an image), overlay/*.png and method.png to the output folder.");
@@ -75,7 +82,7 @@ std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const Rep
 int run_benchmark(const Options& options, const ReplayConfig& config, const Rig& rig) {
   const auto predictor = make_predictor(options, config, rig);
   if (!options.log.empty()) {
-    std::printf("%s", replay(config, rig, options.log, "", predictor).page().c_str());
+    std::printf("%s", replay(config, rig, options.log, "", predictor, options.pace).page().c_str());
     return kExitOk;
   }
   constexpr double kHeight_m = 15;
@@ -95,12 +102,14 @@ int run(const Options& options) {
   if (print_if_asked(options.config, config)) return kExitOk;
   const bool replaying = !options.benchmark;
   if (replaying && options.log.empty()) throw ConfigError("--log is missing: name the ROS 1 bag to replay");
-  if (replaying && options.output.empty()) throw ConfigError("--output is missing: name the folder to make");
+  if (replaying && options.output.empty() && !options.pace.realtime)
+    throw ConfigError("--output is missing: name the folder to make");
   const Rig rig = load_rig(find_rig_file(config.rig, options.config.file));
   if (options.benchmark) return run_benchmark(options, config, rig);
   const ReplaySummary summary =
-      replay(config, rig, options.log, options.output, make_predictor(options, config, rig));
-  std::printf("%s\nresults: %s\n", summary.page().c_str(), options.output.c_str());
+      replay(config, rig, options.log, options.output, make_predictor(options, config, rig), options.pace);
+  std::printf("%s", summary.page().c_str());
+  if (!options.output.empty()) std::printf("\nresults: %s\n", options.output.c_str());
   return kExitOk;
 }
 

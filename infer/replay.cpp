@@ -1,12 +1,15 @@
 #include "infer/replay.hpp"
 
+#include <chrono>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "cli/output_folder.hpp"
 #include "cli/progress_bar.hpp"
+#include "infer/looped_log.hpp"
 #include "infer/overlay.hpp"
 
 namespace alight {
@@ -23,10 +26,11 @@ void write_picture(const fs::path& path, const cv::Mat& picture) {
   if (!written) throw DataError(path.string() + ": cannot be written; check the folder and the free space");
 }
 
-/// The files of a replay; they appear when it ends well.
-class ReplayOutput {
+}  // namespace
+
+class ReplayResults::Files {
  public:
-  ReplayOutput(const fs::path& path, const ReplayConfig& config, const cv::Rect& crop)
+  Files(const fs::path& path, const ReplayConfig& config, const cv::Rect& crop)
       : folder_(path),
         every_(config.overlay_every),
         results_(folder_.partial() / "results.jsonl", crop, config.write_timings) {
@@ -64,45 +68,94 @@ class ReplayOutput {
   int method_rank_ = 0;
 };
 
-}  // namespace
-
 void bind(Binder& b, ReplayConfig& c) {
   b.field("rig", c.rig, "sensors and their mounting");
   b.field("checkpoint", c.checkpoint, "the trained network; none: the one that came with the program");
   b.field("overlay_every", c.overlay_every, "a picture every so many images; 0: none", at_least(0));
   b.field("write_timings", c.write_timings, "stages_ms in results.jsonl, which differs from run to run");
   b.section("log", c.log, "how the log is read");
+  b.section("queue", c.queue, "what may wait for the engine, in real time");
   b.section("network", c.network, "where and how the network runs");
   b.section("engine", c.engine, "how messages become depth");
   b.section("landing", c.landing, "how depth becomes a landing site");
 }
 
-ReplaySummary replay(const ReplayConfig& config, const Rig& rig, const fs::path& log, const fs::path& output,
-                     std::shared_ptr<DepthPredictor> predictor) {
-  LandingPipeline pipeline(config.engine, config.landing, rig, std::move(predictor));
-  std::optional<ReplayOutput> files;
-  if (!output.empty()) files.emplace(output, config, pipeline.engine().crop());
-  FlightLog flight(log, rig, config.log);
-  ReplaySummary summary;
-  const auto take = [&](const std::vector<FrameReport>& frames) {
+ReplayResults::ReplayResults(const ReplayConfig& config, const fs::path& output, const cv::Rect& crop) {
+  if (!output.empty()) files_ = std::make_unique<Files>(output, config, crop);
+}
+
+ReplayResults::~ReplayResults() = default;
+
+void ReplayResults::on_frame(const FrameReport& frame) {
+  summary_.add(frame);
+  if (files_) files_->add(frame);
+}
+
+void ReplayResults::commit() {
+  if (files_) files_->commit();
+}
+
+namespace {
+
+void replay_at_once(LoopedLog& log, LandingPipeline& pipeline, const std::vector<FrameSink*>& sinks,
+                    ProgressBar& bar) {
+  std::int64_t images = 0;
+  const auto deliver = [&](const std::vector<FrameReport>& frames) {
+    images += static_cast<std::int64_t>(frames.size());
     for (const FrameReport& frame : frames) {
-      summary.add(frame);
-      if (files) files->add(frame);
+      for (FrameSink* sink : sinks) sink->on_frame(frame);
     }
   };
-  ProgressBar bar(log.filename().string(), flight.summary().messages, "messages");
   LogMessage message;
-  std::int64_t consumed = 0;
-  while (flight.next(message)) {
-    take(pipeline.add(message));
-    bar.advance(flight.consumed() - consumed, std::to_string(summary.images) + " images");
-    consumed = flight.consumed();
+  for (std::int64_t consumed = 0; log.next(message); consumed = log.consumed()) {
+    for (FrameSink* sink : sinks) sink->on_message(message);
+    deliver(pipeline.add(message));
+    bar.advance(log.consumed() - consumed, std::to_string(images) + " images");
   }
-  take(pipeline.finish());
+  deliver(pipeline.finish());
+}
+
+void replay_in_real_time(LoopedLog& log, EngineRunner& runner, ProgressBar& bar) {
+  std::optional<std::int64_t> begin_ns;
+  const SteadyTime begin = steady_now();
+  LogMessage message;
+  for (std::int64_t consumed = 0; log.next(message) && !runner.failed(); consumed = log.consumed()) {
+    if (!begin_ns) begin_ns = log.receive_ns();
+    std::this_thread::sleep_until(begin + std::chrono::nanoseconds(log.receive_ns() - *begin_ns));
+    runner.push(std::move(message));
+    bar.advance(log.consumed() - consumed, std::to_string(runner.statistics().images) + " images");
+  }
+  runner.finish();
+}
+
+}  // namespace
+
+ReplaySummary replay(const ReplayConfig& config, const Rig& rig, const fs::path& log, const fs::path& output,
+                     std::shared_ptr<DepthPredictor> predictor, const ReplayPace& pace,
+                     const std::vector<FrameSink*>& sinks,
+                     const std::function<void(const EngineRunner&)>& observe) {
+  auto pipeline = std::make_unique<LandingPipeline>(config.engine, config.landing, rig, std::move(predictor));
+  ReplayResults results(config, output, pipeline->engine().crop());
+  std::vector<FrameSink*> all{&results};
+  all.insert(all.end(), sinks.begin(), sinks.end());
+  LoopedLog flight(log, rig, config.log, pace.rounds);
+  ProgressBar bar(log.filename().string(), flight.messages(), "messages");
+  ReplaySummary& summary = results.summary();
+  if (pace.realtime) {
+    EngineRunner runner(config.queue, std::move(pipeline), all);
+    if (observe) observe(runner);
+    const SteadyTime begin = steady_now();
+    replay_in_real_time(flight, runner, bar);
+    summary.live = runner.statistics();
+    summary.live_s = milliseconds(begin, steady_now()) * 1e-3;
+    summary.left_out = summary.live->dropped;
+  } else {
+    replay_at_once(flight, *pipeline, all, bar);
+    summary.left_out = pipeline->engine().dropped();
+  }
   bar.finish();
-  summary.left_out = flight.summary().dropped;
-  for (const auto& [reason, count] : pipeline.engine().dropped()) summary.left_out[reason] += count;
-  if (files) files->commit();
+  for (const auto& [reason, count] : flight.dropped()) summary.left_out[reason] += count;
+  results.commit();
   return summary;
 }
 

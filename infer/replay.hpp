@@ -1,14 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "configs/config_reader.hpp"
 #include "dataset/flight_log.hpp"
 #include "infer/landing_pipeline.hpp"
 #include "infer/network_config.hpp"
+#include "infer/onboard/engine_runner.hpp"
 #include "infer/result_writer.hpp"
 
 namespace alight {
@@ -21,17 +24,45 @@ struct ReplayConfig {
   int overlay_every = 20;     ///< a picture every so many images; 0: none
   bool write_timings = true;  ///< stages_ms in results.jsonl; without, runs are equal byte for byte
   LogConfig log;
+  MessageQueueConfig queue;
   DepthEngineConfig engine;
   LandingConfig landing;
 };
 void bind(Binder& b, ReplayConfig& c);
 
-/// Replays a ROS 1 bag in the order in which it was recorded and writes results.jsonl, overlay/<t_ns>.png and method.png
-/// (the first accepted site that a prediction found; else the first accepted one) to `output`, a folder that must not
-/// exist. An empty `output` writes nothing.
-/// @throws DataError (log, output), ConfigError (rig)
+/// The results of a replay as files: results.jsonl, overlay/<t_ns>.png and method.png (the first accepted site that a
+/// prediction found; else the first accepted one) in a folder that appears when commit() is called; and their summary.
+class ReplayResults : public FrameSink {
+ public:
+  /// @param output must not exist; empty: no files. @throws DataError if it cannot be made
+  ReplayResults(const ReplayConfig& config, const std::filesystem::path& output, const cv::Rect& crop);
+  ~ReplayResults() override;
+
+  /// @throws DataError if a file cannot be written
+  void on_frame(const FrameReport& frame) override;
+  void commit();
+  /// Not while frames come in on another thread.
+  ReplaySummary& summary() { return summary_; }
+
+ private:
+  class Files;
+  std::unique_ptr<Files> files_;
+  ReplaySummary summary_;
+};
+
+/// How a log is replayed.
+struct ReplayPace {
+  bool realtime = false;  ///< messages come when they came in flight, and the engine loses what it is too slow for
+  int rounds = 1;         ///< the log over and over
+};
+
+/// Replays a ROS 1 bag in the order in which it was recorded; results go to `results`, then to the other sinks.
+/// @param observe called with the engine's thread before the first message; realtime only
+/// @returns the summary, `results` committed. @throws DataError (log, output), ConfigError (rig)
 ReplaySummary replay(const ReplayConfig& config, const Rig& rig, const std::filesystem::path& log,
-                     const std::filesystem::path& output, std::shared_ptr<DepthPredictor> predictor);
+                     const std::filesystem::path& output, std::shared_ptr<DepthPredictor> predictor,
+                     const ReplayPace& pace = {}, const std::vector<FrameSink*>& sinks = {},
+                     const std::function<void(const EngineRunner&)>& observe = {});
 
 /// The rig of the images that the engine will show to a predictor.
 RectifiedRig engine_rig(const DepthEngineConfig& config, const Rig& rig);

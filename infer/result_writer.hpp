@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "infer/landing_pipeline.hpp"
+#include "infer/onboard/engine_runner.hpp"
 
 namespace alight {
 
@@ -55,6 +57,8 @@ struct ReplaySummary {
   std::int64_t wandering = 0;
   std::map<std::string, std::int64_t> left_out;  ///< messages and points, reason -> count
   StageStatistics stages;
+  std::optional<RunnerStatistics> live;  ///< of a replay in real time
+  double live_s = 0;                     ///< its duration
 
   void add(const FrameReport& frame);
   std::string page() const;

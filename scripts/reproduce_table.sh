@@ -5,11 +5,11 @@
 #   scripts/reproduce_table.sh --train     from nothing: trains both networks first, hours on two cores; goes on where it
 #                                          was interrupted
 #   --work DIR    for logs, data set and runs (default: the repository)
-#   --every N     every N-th sample is judged (default 3; 1: all)
+#   --every N     every N-th sample is judged (default 5; 1: all)
 #   --output DIR  for the tables (default: out/evaluation)
 set -euo pipefail
 cd "$(dirname "$0")/.."
-source=$PWD work=$PWD every=3 output= train=false
+source=$PWD work=$PWD every=5 output= train=false
 while [ $# -gt 0 ]; do
   case $1 in
     --train) train=true; shift ;;

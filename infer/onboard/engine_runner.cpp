@@ -1,9 +1,27 @@
 #include "infer/onboard/engine_runner.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace alight {
+
+void RunnerStatistics::count_latency(double latency_ms) {
+  last_latency_ms = latency_ms;
+  max_latency_ms = std::max(max_latency_ms, latency_ms);
+  ++latencies[std::min(static_cast<std::size_t>(latency_ms), kLatencySteps - 1)];
+}
+
+double RunnerStatistics::latency_ms(double share) const {
+  const auto counted = std::accumulate(latencies.begin(), latencies.end(), std::int64_t{0});
+  std::int64_t below = 0;
+  for (std::size_t i = 0; i < latencies.size(); ++i) {
+    below += latencies[i];
+    if (counted > 0 && static_cast<double>(below) >= share * static_cast<double>(counted))
+      return std::min(static_cast<double>(i + 1), max_latency_ms);
+  }
+  return 0;
+}
 
 EngineRunner::EngineRunner(const MessageQueueConfig& queue, std::unique_ptr<LandingPipeline> pipeline,
                            std::vector<FrameSink*> sinks)
@@ -64,8 +82,7 @@ void EngineRunner::deliver(const std::vector<FrameReport>& frames) {
     const std::lock_guard lock(mutex_);
     ++statistics_.images;
     if (const auto arrival = arrivals_.find(frame.depth.t_ns); arrival != arrivals_.end()) {
-      statistics_.last_latency_ms = milliseconds(arrival->second, steady_now());
-      statistics_.max_latency_ms = std::max(statistics_.max_latency_ms, statistics_.last_latency_ms);
+      statistics_.count_latency(milliseconds(arrival->second, steady_now()));
       arrivals_.erase(arrival);
     }
   }

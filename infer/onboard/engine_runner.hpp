@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <exception>
@@ -21,9 +22,15 @@ struct RunnerStatistics {
   std::int64_t images = 0;                      ///< results so far
   std::map<std::string, std::int64_t> dropped;  ///< messages and points left out: reason -> count
   std::size_t queued = 0;                       ///< messages waiting now
-  double last_latency_ms =
-      0;  ///< from the image's arrival in the queue to its result, on this computer's clock
+  /// From the image's arrival in the queue to its result, on this computer's clock.
+  double last_latency_ms = 0;
   double max_latency_ms = 0;
+  static constexpr std::size_t kLatencySteps = 2000;    ///< of a millisecond
+  std::array<std::int64_t, kLatencySteps> latencies{};  ///< results by latency; the last step holds all beyond
+
+  void count_latency(double latency_ms);
+  /// The latency that a share of the results did not exceed, to the millisecond above; 0 without results.
+  double latency_ms(double share) const;
 };
 
 /// The engine in a thread of its own: what a live node, the ground station and a replay in real time run. Messages go in
