@@ -17,7 +17,11 @@ void shift(LogMessage& message, std::int64_t offset_ns) {
 }  // namespace
 
 LoopedLog::LoopedLog(std::filesystem::path path, const Rig& rig, const LogConfig& config, int rounds)
-    : path_(std::move(path)), rig_(rig), config_(config), rounds_(rounds), log_(FlightLog(path_, rig, config)) {}
+    : path_(std::move(path)),
+      rig_(rig),
+      config_(config),
+      rounds_(rounds),
+      log_(FlightLog(path_, rig, config)) {}
 
 bool LoopedLog::next(LogMessage& out) {
   while (!log_->next(out)) {

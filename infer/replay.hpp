@@ -52,8 +52,9 @@ class ReplayResults : public FrameSink {
 
 /// How a log is replayed.
 struct ReplayPace {
-  bool realtime = false;  ///< messages come when they came in flight, and the engine loses what it is too slow for
-  int rounds = 1;         ///< the log over and over
+  bool realtime =
+      false;       ///< messages come when they came in flight, and the engine loses what it is too slow for
+  int rounds = 1;  ///< the log over and over
 };
 
 /// Replays a ROS 1 bag in the order in which it was recorded; results go to `results`, then to the other sinks.

@@ -139,10 +139,11 @@ std::string ReplaySummary::page() const {
   text += format("frames with a site     %8lld, accepted %lld, wandering %lld\n", count(sites),
                  count(accepted), count(wandering));
   if (live) {
-    text += format("in real time           %8.1f images/s; from arrival to result %.0f ms (median), %.0f ms (p95), "
-                   "%.0f ms at most\n",
-                   static_cast<double>(live->images) / live_s, live->latency_ms(0.5), live->latency_ms(0.95),
-                   live->max_latency_ms);
+    text += format(
+        "in real time           %8.1f images/s; from arrival to result %.0f ms (median), %.0f ms (p95), "
+        "%.0f ms at most\n",
+        static_cast<double>(live->images) / live_s, live->latency_ms(0.5), live->latency_ms(0.95),
+        live->max_latency_ms);
   }
   for (const auto& [reason, n] : left_out)
     text += format("left out               %8lld %s\n", count(n), reason.c_str());

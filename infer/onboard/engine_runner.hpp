@@ -25,8 +25,9 @@ struct RunnerStatistics {
   /// From the image's arrival in the queue to its result, on this computer's clock.
   double last_latency_ms = 0;
   double max_latency_ms = 0;
-  static constexpr std::size_t kLatencySteps = 2000;    ///< of a millisecond
-  std::array<std::int64_t, kLatencySteps> latencies{};  ///< results by latency; the last step holds all beyond
+  static constexpr std::size_t kLatencySteps = 2000;  ///< of a millisecond
+  std::array<std::int64_t, kLatencySteps>
+      latencies{};  ///< results by latency; the last step holds all beyond
 
   void count_latency(double latency_ms);
   /// The latency that a share of the results did not exceed, to the millisecond above; 0 without results.
