@@ -2,9 +2,11 @@
 
 #include <cstdlib>
 #include <exception>
+#include <limits>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <malloc.h>
 #include <unistd.h>
 
 namespace alight {
@@ -52,6 +54,15 @@ void restart_with_short_spin(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") != nullptr || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   setenv("GOMP_SPINCOUNT", "1000", 1);
   execv("/proc/self/exe", argv);  // returns only where it fails, and then the tool is merely slower
+}
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kTopPad_bytes = 64 << 20;
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TOP_PAD, kTopPad_bytes);
+#endif
 }
 
 void add_config_options(CLI::App& app, ConfigOptions& options, const std::string& default_file) {

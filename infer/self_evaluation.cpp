@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
-#include "geometry/reprojection.hpp"
 #include "infer/ssim.hpp"
 
 namespace alight {
@@ -83,12 +83,39 @@ StereoTest::StereoTest(const cv::Mat& left, const cv::Mat& right, const Rectifie
   ssim_plain_ = ssim_map(left_, right_);
 }
 
+/// Rectified eyes differ by a disparity along the row, so a row at a time is all there is to do: its surfaces go to the
+/// right eye, the nearest wins, and there each looks up its luminance in the left image.
 RightView StereoTest::reconstruct(const cv::Mat& depth_m) const {
-  const Eigen::Isometry3d T_right_camera = rig_.T_right_camera();
-  const cv::Mat depth_right_m = reproject_depth(depth_m, rig_.intrinsics, T_right_camera, rig_.intrinsics);
-  const SampledView view =
-      sample_view(left_, rig_.intrinsics, depth_right_m, rig_.intrinsics, T_right_camera.inverse());
-  return {view.image, view.valid};
+  const auto focal_baseline_px_m = static_cast<float>(rig_.intrinsics.fx_px * rig_.baseline_m);
+  const int width = depth_m.cols;
+  RightView view{cv::Mat::zeros(depth_m.size(), CV_32FC1), cv::Mat::zeros(depth_m.size(), CV_8UC1)};
+  std::vector<float> nearest_m(static_cast<std::size_t>(width));
+  for (int v = 0; v < depth_m.rows; ++v) {
+    const float* depth_row_m = depth_m.ptr<float>(v);
+    std::fill(nearest_m.begin(), nearest_m.end(), 0.0F);
+    for (int u = 0; u < width; ++u) {
+      const float z_m = depth_row_m[u];
+      if (!(z_m > 0)) continue;
+      const float u_right = static_cast<float>(u) - focal_baseline_px_m / z_m + 0.5F;
+      if (!(u_right >= 0)) continue;
+      float& held_m = nearest_m[static_cast<std::size_t>(u_right)];
+      if (held_m == 0.0F || z_m < held_m) held_m = z_m;
+    }
+    const float* left_row = left_.ptr<float>(v);
+    auto* luminance_row = view.luminance.ptr<float>(v);
+    auto* valid_row = view.valid.ptr<std::uint8_t>(v);
+    for (int u = 0; u < width; ++u) {
+      const float z_m = nearest_m[static_cast<std::size_t>(u)];
+      if (z_m == 0.0F) continue;
+      const float u_left = static_cast<float>(u) + focal_baseline_px_m / z_m;
+      if (u_left > static_cast<float>(width - 1)) continue;
+      const int below = std::min(static_cast<int>(u_left), width - 2);
+      const float share = u_left - static_cast<float>(below);
+      luminance_row[u] = (1 - share) * left_row[below] + share * left_row[below + 1];
+      valid_row[u] = 255;
+    }
+  }
+  return view;
 }
 
 StereoScores StereoTest::score(const RightView& prediction, const RightView* lidar) const {

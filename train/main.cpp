@@ -151,6 +151,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   alight::restart_with_short_spin(argv);
+  alight::keep_freed_memory();
   CLI::App app("alight-train: learns depth completion from a data set of alight-dataset");
   Options options;
   add_options(app, options);

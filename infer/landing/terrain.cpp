@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace alight {
@@ -107,7 +108,7 @@ Terrain measure_terrain(const cv::Mat& level_depth_m, const PinholeIntrinsics& i
   const Smoothed smoothed = smooth(level_depth_m, config.smoothing_px);
   const Points points(smoothed, intrinsics);
   const double baseline_px_m = config.derivative_baseline_m * intrinsics.fx_px;
-  for (int v = 0; v < size.height; ++v) {
+  const auto measure_row = [&](int v) {
     for (int u = 0; u < size.width; ++u) {
       if (!points.known(u, v)) continue;
       const int step =
@@ -129,7 +130,10 @@ Terrain measure_terrain(const cv::Mat& level_depth_m, const PinholeIntrinsics& i
       terrain.roughness_rad.at<float>(v, u) =
           std::atan2(static_cast<float>(roughest.sine), static_cast<float>(roughest.cosine));
     }
-  }
+  };
+  cv::parallel_for_({0, size.height}, [&](const cv::Range& rows) {
+    for (int v = rows.start; v < rows.end; ++v) measure_row(v);
+  });
   return terrain;
 }
 
