@@ -4,9 +4,9 @@
 #include <exception>
 #include <limits>
 
+#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
-#include <malloc.h>
 #include <unistd.h>
 
 namespace alight {
