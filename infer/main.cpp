@@ -9,6 +9,7 @@
 #include "cli/command_line.hpp"
 #include "dataset/dataset_builder.hpp"
 #include "infer/benchmark.hpp"
+#include "infer/network_benchmark.hpp"
 #include "infer/network_predictor.hpp"
 #include "infer/replay.hpp"
 #include "infer/shipped_model.hpp"
@@ -24,6 +25,10 @@ struct Options {
   std::string landing;
   bool lidar_only = false;
   bool benchmark = false;
+  bool benchmark_network = false;
+  int benchmark_runs = 50;
+  std::optional<std::string> dump;
+  bool json = false;
   ReplayPace pace;
 };
 
@@ -38,6 +43,18 @@ void add_options(CLI::App& app, Options& options) {
   app.add_flag("--lidar-only", options.lidar_only, "No network: interpolate the LiDAR of max_accumulation_s");
   app.add_flag("--benchmark", options.benchmark,
                "Print median and 95th percentile of every stage, on --log or on synthetic frames");
+  auto* network = app.add_flag("--benchmark-network", options.benchmark_network,
+                               "Time the network alone, against what convolutions reach here");
+  app.add_option("--benchmark-runs", options.benchmark_runs,
+                 "Passes that --benchmark-network times of each kind")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000))
+      ->needs(network);
+  app.add_option("--dump", options.dump,
+                 "Folder for the inputs and the result that --benchmark-network computed")
+      ->needs(network);
+  app.add_flag("--json", options.json, "Print --benchmark-network's figures as a line of JSON")
+      ->needs(network);
   app.add_flag("--realtime", options.pace.realtime,
                "Messages come when they came in flight; what the engine is too slow for is lost and counted");
   app.add_option("--repeat", options.pace.rounds, "Replay the log so many times over")
@@ -64,9 +81,7 @@ ReplayConfig resolve(const Options& options) {
 }
 
 /// The network that was named, or the one that comes with the program.
-std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const ReplayConfig& config,
-                                               const Rig& rig) {
-  if (options.lidar_only) return nullptr;
+std::filesystem::path network_file(const ReplayConfig& config) {
   std::optional<std::filesystem::path> checkpoint;
   if (config.checkpoint) checkpoint = *config.checkpoint;
   if (!checkpoint && (checkpoint = find_shipped_model(this_executable()))) {
@@ -76,7 +91,22 @@ std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const Rep
     throw ConfigError(
         "no network: none came with this program; name one with --checkpoint, or say --lidar-only");
   }
-  return make_network_predictor(*checkpoint, engine_rig(config.engine, rig), config.network);
+  return *checkpoint;
+}
+
+std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const ReplayConfig& config,
+                                               const Rig& rig) {
+  if (options.lidar_only) return nullptr;
+  return make_network_predictor(network_file(config), engine_rig(config.engine, rig), config.network);
+}
+
+int run_network_benchmark(const Options& options, const ReplayConfig& config, const Rig& rig) {
+  const RectifiedRig camera = engine_rig(config.engine, rig);
+  const NetworkBenchmark result =
+      benchmark_network(network_file(config), camera.intrinsics, camera.baseline_m, config.network,
+                        options.benchmark_runs, options.dump);
+  std::fputs((options.json ? result.json() : result.table()).c_str(), stdout);
+  return kExitOk;
 }
 
 int run_benchmark(const Options& options, const ReplayConfig& config, const Rig& rig) {
@@ -100,11 +130,12 @@ int run_benchmark(const Options& options, const ReplayConfig& config, const Rig&
 int run(const Options& options) {
   const ReplayConfig config = resolve(options);
   if (print_if_asked(options.config, config)) return kExitOk;
-  const bool replaying = !options.benchmark;
+  const bool replaying = !options.benchmark && !options.benchmark_network;
   if (replaying && options.log.empty()) throw ConfigError("--log is missing: name the ROS 1 bag to replay");
   if (replaying && options.output.empty() && !options.pace.realtime)
     throw ConfigError("--output is missing: name the folder to make");
   const Rig rig = load_rig(find_rig_file(config.rig, options.config.file));
+  if (options.benchmark_network) return run_network_benchmark(options, config, rig);
   if (options.benchmark) return run_benchmark(options, config, rig);
   const ReplaySummary summary =
       replay(config, rig, options.log, options.output, make_predictor(options, config, rig), options.pace);

@@ -1,21 +1,16 @@
 #include "infer/network_predictor.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
-#include "configs/errors.hpp"
 #include "geometry/depth_map.hpp"
+#include "infer/onboard_network.hpp"
 #include "models/altitude_plane.hpp"
-#include "models/checkpoint.hpp"
 #include "models/depth_conversion.hpp"
-#include "models/device.hpp"
-#include "models/fold_batch_norm.hpp"
 
 namespace alight {
 namespace {
@@ -26,30 +21,6 @@ struct ImagePyramid : EncodedImage {
   std::vector<torch::Tensor> maps;  // [0] float32, the others of the network's type
   torch::Tensor prior_m;            // [1,1,H,W], of the network's depth kind
 };
-
-bool processor_has_bfloat16() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx512bf16") != 0;
-#else
-  return false;
-#endif
-}
-
-torch::Dtype number_type(NetworkPrecision precision, torch::Device device) {
-  switch (precision) {
-    case NetworkPrecision::kFloat32:
-      break;
-    case NetworkPrecision::kBfloat16:
-      return torch::kBFloat16;
-    case NetworkPrecision::kFloat16:
-      if (device.is_cuda()) return torch::kFloat16;
-      throw ConfigError("network.precision: float16 needs a CUDA device; use bfloat16, float32 or auto");
-    case NetworkPrecision::kAuto:
-      if (device.is_cuda()) return torch::kFloat16;
-      if (processor_has_bfloat16()) return torch::kBFloat16;
-  }
-  return torch::kFloat32;
-}
 
 /// [1,3,H,W] float32, RGB in 0..1, as the network was trained with; undefined for an empty image
 torch::Tensor image_tensor(const cv::Mat& image) {
@@ -69,14 +40,8 @@ torch::Tensor depth_tensor(const cv::Mat& depth_m) {
 
 class NetworkPredictor : public DepthPredictor {
  public:
-  NetworkPredictor(DepthCompletionNet net, const RectifiedRig& rig, torch::Device device, torch::Dtype type)
-      : net_(std::move(net)), rig_(rig), device_(device), type_(type) {
-    net_->eval();
-    net_->to(device_, type_);
-    for (torch::Tensor& parameter : net_->parameters()) {
-      parameter.set_requires_grad(false);
-      if (parameter.dim() == 4) parameter.set_data(parameter.contiguous(torch::MemoryFormat::ChannelsLast));
-    }
+  NetworkPredictor(OnboardNetwork network, const RectifiedRig& rig)
+      : network_(std::move(network)), rig_(rig) {
     warm_up();
   }
 
@@ -86,22 +51,23 @@ class NetworkPredictor : public DepthPredictor {
     const torch::InferenceMode guard;
     auto pyramid = std::make_unique<ImagePyramid>();
     pyramid->prior_m = prior(view);
-    const torch::Tensor input = net_->image_input(
+    const torch::Tensor input = network_.net->image_input(
         {on_device(image_tensor(view.left)), on_device(image_tensor(view.right)), pyramid->prior_m,
-         torch::full({1}, rig_.intrinsics.fx_px * rig_.baseline_m, device_)});
-    pyramid->maps = pyramid_of(input, net_->image_features(to_network(input)));
+         torch::full({1}, rig_.intrinsics.fx_px * rig_.baseline_m, network_.device)});
+    pyramid->maps = pyramid_of(input, network_.net->image_features(network_.prepare(input)));
     return pyramid;
   }
 
   cv::Mat refine(const EncodedImage& image, const cv::Mat& sparse_m) override {
     check_size(sparse_m);
     const torch::InferenceMode guard;
-    const bool perspective = net_->config().depth_kind == DepthKind::kPerspective;
+    const bool perspective = network_.net->config().depth_kind == DepthKind::kPerspective;
     const cv::Mat input_m = perspective ? plane_to_perspective(sparse_m, rig_.intrinsics) : sparse_m;
     const auto& pyramid = dynamic_cast<const ImagePyramid&>(image);
-    const torch::Tensor input = net_->depth_input(on_device(depth_tensor(input_m)), pyramid.prior_m);
+    const torch::Tensor input = network_.net->depth_input(on_device(depth_tensor(input_m)), pyramid.prior_m);
     const torch::Tensor predicted =
-        net_->decode(pyramid.maps, pyramid_of(input, net_->depth_features(to_network(input))))
+        network_.net
+            ->decode(pyramid.maps, pyramid_of(input, network_.net->depth_features(network_.prepare(input))))
             .to(torch::kCPU, torch::kFloat32)
             .contiguous();
     const cv::Mat depth_m = cv::Mat(sparse_m.size(), CV_32FC1, predicted.data_ptr<float>()).clone();
@@ -113,14 +79,12 @@ class NetworkPredictor : public DepthPredictor {
     const PinholeIntrinsics& k = rig_.intrinsics;
     const torch::Tensor intrinsics_px = torch::tensor({k.fx_px, k.fy_px, k.cx_px, k.cy_px}, torch::kFloat32);
     const torch::Tensor plane_m = altitude_plane(view.height_m, view.down_camera, intrinsics_px, k.height_px,
-                                                 k.width_px, net_->config().max_depth_m);
-    return on_device(to_network_depth(plane_m, intrinsics_px.unsqueeze(0), net_->config().depth_kind));
+                                                 k.width_px, network_.net->config().max_depth_m);
+    return on_device(
+        to_network_depth(plane_m, intrinsics_px.unsqueeze(0), network_.net->config().depth_kind));
   }
 
-  torch::Tensor on_device(const torch::Tensor& x) const { return x.defined() ? x.to(device_) : x; }
-  torch::Tensor to_network(const torch::Tensor& x) const {
-    return x.to(type_).contiguous(torch::MemoryFormat::ChannelsLast);
-  }
+  torch::Tensor on_device(const torch::Tensor& x) const { return x.defined() ? x.to(network_.device) : x; }
   static std::vector<torch::Tensor> pyramid_of(const torch::Tensor& input,
                                                const std::vector<torch::Tensor>& features) {
     std::vector<torch::Tensor> maps{input};
@@ -142,23 +106,15 @@ class NetworkPredictor : public DepthPredictor {
     }
   }
 
-  DepthCompletionNet net_;
+  OnboardNetwork network_;
   RectifiedRig rig_;
-  torch::Device device_;
-  torch::Dtype type_;
 };
 
 }  // namespace
 
 std::unique_ptr<DepthPredictor> make_network_predictor(const std::filesystem::path& checkpoint,
                                                        const RectifiedRig& rig, const NetworkConfig& config) {
-  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  at::set_num_threads(config.threads > 0 ? config.threads : machine);
-  at::globalContext().setFlushDenormal(true);
-  const torch::Device device = find_device(config.device);
-  DepthCompletionNet net = load_network(checkpoint).net;
-  if (net->config().normalization == Normalization::kBatch) net = fold_batch_norm(net);
-  return std::make_unique<NetworkPredictor>(net, rig, device, number_type(config.precision, device));
+  return std::make_unique<NetworkPredictor>(load_onboard_network(checkpoint, config), rig);
 }
 
 }  // namespace alight

@@ -98,6 +98,10 @@ void StageStatistics::add(const StageTimes& stages_ms) {
   for (const auto& [stage, ms] : stages_ms) samples_ms_[stage].push_back(ms);
 }
 
+double StageStatistics::percentile_ms(const std::string& stage, double share) const {
+  return percentile(samples_ms_.at(stage), share);
+}
+
 std::string StageStatistics::table() const {
   std::string text = format("%-14s %8s %11s %9s\n", "stage", "frames", "median ms", "p95 ms");
   for (const auto& [stage, samples] : samples_ms_) {

@@ -39,6 +39,8 @@ class ResultWriter {
 class StageStatistics {
  public:
   void add(const StageTimes& stages_ms);
+  /// @param share 0.5 is the median. @throws std::out_of_range for a stage that was never timed
+  double percentile_ms(const std::string& stage, double share) const;
   /// One line a stage, with a heading.
   std::string table() const;
 
