@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace alight {
+namespace {
+
+constexpr std::size_t kMaxArrivals = 1000;
+
+}  // namespace
 
 EngineRunner::EngineRunner(const MessageQueueConfig& queue, std::unique_ptr<LandingPipeline> pipeline,
                            std::vector<FrameSink*> sinks)
@@ -44,6 +49,7 @@ void EngineRunner::run() {
       note_arrival(*item);
       for (FrameSink* sink : sinks_) sink->on_message(item->message);
       deliver(pipeline_->add(item->message));
+      tell_health();
     }
     if (!abandoned_) deliver(pipeline_->finish());
   } catch (...) {
@@ -53,9 +59,17 @@ void EngineRunner::run() {
   }
 }
 
+void EngineRunner::tell_health() {
+  if (same_findings(pipeline_->health(), told_)) return;
+  told_ = pipeline_->health();
+  for (FrameSink* sink : sinks_) sink->on_health(told_);
+}
+
 void EngineRunner::note_arrival(const MessageQueue::Item& item) {
   if (const auto* frame = std::get_if<StereoFrame>(&item.message))
     arrivals_.emplace(frame->t_ns, item.pushed);
+  // Images that are not believed get no result.
+  while (arrivals_.size() > kMaxArrivals) arrivals_.erase(arrivals_.begin());
 }
 
 void EngineRunner::deliver(const std::vector<FrameReport>& frames) {
