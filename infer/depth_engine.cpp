@@ -37,6 +37,7 @@ void bind(Binder& b, DepthEngineConfig& c) {
   b.field("max_open_images", c.max_open_images, "images in work at once", between(1, 1000));
   b.field("max_points", c.max_points, "LiDAR points held", at_least(1));
   b.section("image", c.image, "how one image is worked on");
+  b.section("health", c.health, "when sensors are not believed");
 }
 
 DepthEngine::DepthEngine(const DepthEngineConfig& config, const Rig& rig,
@@ -56,6 +57,16 @@ DepthEngine::DepthEngine(const DepthEngineConfig& config, const Rig& rig,
 void DepthEngine::add(const LogMessage& message) {
   std::visit([this](const auto& typed) { receive(typed); }, message);
   work();
+}
+
+void DepthEngine::forget_lidar(const std::string& reason) {
+  packets_.clear();
+  accumulator_ = Accumulator(static_cast<std::size_t>(config_.max_points));
+  for (Entry& entry : entries_) {
+    if (!entry.task) continue;
+    entry.task.reset();
+    give_up(entry, reason);
+  }
 }
 
 void DepthEngine::saw(std::int64_t t_ns) {
@@ -157,17 +168,18 @@ void DepthEngine::open(Entry& entry, const Eigen::Isometry3d& T_world_camera) {
   PredictorView view;
   {
     const StageTimer timer(stages_ms, "rectify");
-    view.left = rectifier_.rectify_left(entry.frame->left)(crop_).clone();
+    view.left = entry.frame->left.empty() ? cv::Mat::zeros(crop_.size(), CV_8UC1)
+                                          : rectifier_.rectify_left(entry.frame->left)(crop_).clone();
     if (!entry.frame->right.empty()) view.right = rectifier_.rectify_right(entry.frame->right)(crop_).clone();
   }
+  DepthPredictor* predictor = entry.frame->left.empty() ? nullptr : predictor_.get();
   view.height_m = heights_.at_or_latest(entry.t_ns, kMaxHeightAge_ns);
   entry.frame.reset();
   int first_packets = 0;
   bool ask_network = true;
   begin_warm(first_packets, ask_network);
-  entry.task =
-      std::make_unique<ImageTask>(config_.image, rig_, ask_network ? predictor_.get() : nullptr, entry.t_ns,
-                                  std::move(view), T_world_camera, std::move(stages_ms), first_packets);
+  entry.task = std::make_unique<ImageTask>(config_.image, rig_, ask_network ? predictor : nullptr, entry.t_ns,
+                                           std::move(view), T_world_camera, std::move(stages_ms), first_packets);
   if (config_.history_s > 0) {
     for (const auto& packet : accumulator_.before(entry.t_ns, config_.history_s, config_.history_s + 0.5)) {
       entry.task->offer(packet);

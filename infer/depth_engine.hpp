@@ -14,6 +14,7 @@
 #include "geometry/stereo_rectification.hpp"
 #include "infer/accumulator.hpp"
 #include "infer/depth_result.hpp"
+#include "infer/health/health_config.hpp"
 #include "infer/image_task.hpp"
 
 namespace alight {
@@ -31,6 +32,7 @@ struct DepthEngineConfig {
   int max_open_images = 24;      ///< images in work at once; more are skipped with a reason
   int max_points = 2'000'000;    ///< LiDAR points held for the future
   ImageTaskConfig image;
+  HealthConfig health;  ///< LandingPipeline's; the engine itself believes every message
 };
 void bind(Binder& b, DepthEngineConfig& c);
 
@@ -55,7 +57,10 @@ class DepthEngine {
   /// @param predictor null: LiDAR alone. @throws ConfigError if the crop does not fit or the rig has no LiDAR
   DepthEngine(const DepthEngineConfig& config, const Rig& rig, std::shared_ptr<DepthPredictor> predictor);
 
+  /// A frame without a left image gets its result from the LiDAR alone.
   void add(const LogMessage& message);
+  /// The LiDAR points so far are wrong or lie elsewhere: none is used any more, and images in work end without depth.
+  void forget_lidar(const std::string& reason);
   /// No more messages will come: every image gets its result.
   void finish();
   /// The results that are final, in image order.

@@ -10,6 +10,8 @@ void bind(Binder& b, LandingConfig& c) {
 }
 
 std::string FrameReport::site_reason() const {
+  const bool failed = health.state == HealthState::kFailed;
+  if (failed && !depth.depth_m.empty()) return "sensors failed: " + describe(health);
   if (!selection) return "no trusted depth: " + depth.reason;
   if (decision.site && !selection->found()) return "previous site kept";
   return describe(*selection);
@@ -24,16 +26,29 @@ ImageSite in_camera_image(const LandingSite& site, const Eigen::Matrix3d& R_leve
 
 LandingPipeline::LandingPipeline(const DepthEngineConfig& engine, const LandingConfig& landing,
                                  const Rig& rig, std::shared_ptr<DepthPredictor> predictor)
-    : engine_(engine, rig, std::move(predictor)),
+    : monitor_(engine.health, rig, predictor != nullptr ? DepthMakers::kImageAndLidar : DepthMakers::kLidar),
+      engine_(engine, rig, std::move(predictor)),
       selector_(landing.selection, engine_.rig().intrinsics),
       tracker_(landing.tracker, selector_) {}
 
 std::vector<FrameReport> LandingPipeline::add(const LogMessage& message) {
-  engine_.add(message);
+  const std::vector<LogMessage> believed = monitor_.add(message);
+  if (monitor_.take_lidar_spoiled()) engine_.forget_lidar("the LiDAR points so far do not hold any more");
+  health_ = monitor_.report();
+  pass_on(believed);
   return report();
 }
 
+void LandingPipeline::pass_on(const std::vector<LogMessage>& messages) {
+  for (const LogMessage& message : messages) {
+    engine_.add(message);
+    const auto* packet = std::get_if<LidarPacket>(&message);
+    if (packet != nullptr && monitor_.camera_lost()) engine_.add(StereoFrame{end_of(*packet), {}, {}});
+  }
+}
+
 std::vector<FrameReport> LandingPipeline::finish() {
+  pass_on(monitor_.finish());
   engine_.finish();
   return report();
 }
@@ -47,10 +62,11 @@ std::vector<FrameReport> LandingPipeline::report() {
 FrameReport LandingPipeline::report(DepthResult depth) {
   FrameReport frame;
   frame.depth = std::move(depth);
+  frame.health = health_;
   // An image out of time order has no place in a row of consecutive frames.
   if (last_ns_ && frame.depth.t_ns <= *last_ns_) return frame;
   last_ns_ = frame.depth.t_ns;
-  if (frame.depth.depth_m.empty()) {
+  if (frame.depth.depth_m.empty() || health_.state == HealthState::kFailed) {
     frame.decision = tracker_.update_without_depth(frame.depth.t_ns);
     return frame;
   }

@@ -8,7 +8,7 @@
 
 #include "configs/config_reader.hpp"
 #include "infer/depth_engine.hpp"
-#include "infer/health/health_report.hpp"
+#include "infer/health/health_monitor.hpp"
 #include "infer/landing/site_selection.hpp"
 #include "infer/landing/site_tracker.hpp"
 
@@ -40,7 +40,9 @@ struct FrameReport {
   std::string site_reason() const;
 };
 
-/// Messages in, depth and landing decision per left image out: what replay and a live node run.
+/// Messages in, depth and landing decision per left image out: what replay and a live node run. The sensors' health is
+/// judged first (HealthMonitor), and only what may be believed goes to the engine. While no usable images come, every
+/// LiDAR packet makes a frame of its own, without image, so that landing goes on by the LiDAR alone.
 class LandingPipeline {
  public:
   LandingPipeline(const DepthEngineConfig& engine, const LandingConfig& landing, const Rig& rig,
@@ -52,11 +54,18 @@ class LandingPipeline {
   std::vector<FrameReport> finish();
 
   const DepthEngine& engine() const { return engine_; }
+  /// The sensors' health as of the latest message, whether or not a frame came of it.
+  const HealthReport& health() const { return health_; }
+  /// The same at a later moment, for whoever has a clock of the sensors' time and waits in vain for a message.
+  HealthReport health(std::int64_t now_ns) const { return monitor_.report(now_ns); }
 
  private:
+  void pass_on(const std::vector<LogMessage>& messages);
   std::vector<FrameReport> report();
   FrameReport report(DepthResult depth);
 
+  HealthMonitor monitor_;
+  HealthReport health_;
   DepthEngine engine_;
   SiteSelector selector_;
   SiteTracker tracker_;

@@ -36,6 +36,19 @@ Json site_json(const FrameReport& frame) {
   return json;
 }
 
+Json health_json(const HealthReport& health) {
+  Json json;
+  json["state"] = name(health.state);
+  json["findings"] = Json::array();
+  for (const HealthFinding& finding : health.findings) {
+    json["findings"].push_back({{"sensor", finding.sensor},
+                                {"fault", finding.fault},
+                                {"reason", finding.reason},
+                                {"since_ns", finding.since_ns}});
+  }
+  return json;
+}
+
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
   char text[256];
@@ -75,6 +88,7 @@ std::string to_json_line(const FrameReport& frame, const cv::Rect& crop, bool wi
   json["site"] = site_json(frame);
   json["site_reason"] = frame.site_reason();
   json["wander"] = frame.decision.wander;
+  json["health"] = health_json(frame.health);
   if (with_timings) {
     Json stages = Json::object();
     for (const auto& [stage, ms] : depth.stages_ms) stages[stage] = std::round(ms * 1e3) / 1e3;

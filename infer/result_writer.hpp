@@ -16,7 +16,7 @@
 namespace alight {
 
 /// One frame as a line of results.jsonl (without line end): t_ns, crop, source, accumulation_s, the scores of both tests
-/// (null where there is none), site in the cropped left image or null, wander, reasons. `with_timings` adds stages_ms,
+/// (null where there is none), site in the cropped left image or null, wander, reasons, the sensors' health. `with_timings` adds stages_ms,
 /// the only part that differs from run to run.
 std::string to_json_line(const FrameReport& frame, const cv::Rect& crop, bool with_timings);
 

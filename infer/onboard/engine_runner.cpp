@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace alight {
+namespace {
+
+constexpr std::size_t kMaxArrivals = 1000;
+
+}  // namespace
 
 void RunnerStatistics::count_latency(double latency_ms) {
   last_latency_ms = latency_ms;
@@ -62,6 +67,7 @@ void EngineRunner::run() {
       note_arrival(*item);
       for (FrameSink* sink : sinks_) sink->on_message(item->message);
       deliver(pipeline_->add(item->message));
+      tell_health();
     }
     if (!abandoned_) deliver(pipeline_->finish());
   } catch (...) {
@@ -71,9 +77,17 @@ void EngineRunner::run() {
   }
 }
 
+void EngineRunner::tell_health() {
+  if (same_findings(pipeline_->health(), told_)) return;
+  told_ = pipeline_->health();
+  for (FrameSink* sink : sinks_) sink->on_health(told_);
+}
+
 void EngineRunner::note_arrival(const MessageQueue::Item& item) {
   if (const auto* frame = std::get_if<StereoFrame>(&item.message))
     arrivals_.emplace(frame->t_ns, item.pushed);
+  // Images that are not believed get no result.
+  while (arrivals_.size() > kMaxArrivals) arrivals_.erase(arrivals_.begin());
 }
 
 void EngineRunner::deliver(const std::vector<FrameReport>& frames) {

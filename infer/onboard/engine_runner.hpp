@@ -60,11 +60,13 @@ class EngineRunner {
  private:
   void run();
   void deliver(const std::vector<FrameReport>& frames);
+  void tell_health();
   void note_arrival(const MessageQueue::Item& item);
 
   MessageQueue queue_;
   std::unique_ptr<LandingPipeline> pipeline_;
   std::vector<FrameSink*> sinks_;
+  HealthReport told_;                            // the health that the sinks know
   std::map<std::int64_t, SteadyTime> arrivals_;  // of images without a result yet, by their time
   mutable std::mutex mutex_;
   RunnerStatistics statistics_;

@@ -18,6 +18,9 @@ class FrameSink {
   virtual void on_message(const LogMessage& message) { static_cast<void>(message); }
   /// Every result, in image order.
   virtual void on_frame(const FrameReport& frame) = 0;
+  /// Whenever a finding comes or goes, after the frames of the same message. Needs no frame: a camera that falls silent
+  /// is told here.
+  virtual void on_health(const HealthReport& health) { static_cast<void>(health); }
 };
 
 }  // namespace alight
