@@ -51,10 +51,11 @@ std::shared_ptr<const ShownFrame> FlightView::wait(std::int64_t after, std::chro
   std::unique_lock lock(mutex_);
   if (after > results_) after = 0;
   while (!closed_) {
-    if (shown_number() > after) return shown_.back();
     const bool newer = results_ > shown_number();
     const SteadyTime now = steady_now();
+    // Also for a viewer who knows none: what was shown last may be from when somebody last looked.
     if (newer && now >= next_show_) return show_latest();
+    if (shown_number() > after) return shown_.back();
     if (now >= deadline) break;
     changed_.wait_until(lock, newer ? std::min(next_show_, deadline) : deadline);
   }

@@ -133,6 +133,8 @@ HttpServer::HttpServer(const HttpLimits& limits) : limits_(limits) {
   };
   set_payload_max_length(limits.max_request_bytes);
   set_tcp_nodelay(true);
+  set_keep_alive_max_count(1'000'000);  // only told to clients: serve() keeps no count
+  set_keep_alive_timeout(limits.idle_timeout_ms / 1000);
   // Not the library's SO_REUSEPORT, with which two programs would share a port and each get half of the requests.
   set_socket_options([](socket_t socket) {
     const int yes = 1;
