@@ -49,6 +49,13 @@ foreach(library rosbag_storage roscpp_serialization rostime cpp_common class_loa
 endforeach()
 alight_imported(rosbag INCLUDES ${ROSBAG_INCLUDES} LIBRARIES ${ROSBAG_LIBRARIES})
 
+# Debian's cpp-httplib is compiled with these three, and its classes have other layouts without them.
+find_path(HTTPLIB_INCLUDE_DIR httplib.h REQUIRED)
+find_library(HTTPLIB_LIBRARY cpp-httplib REQUIRED)
+alight_imported(httplib INCLUDES ${HTTPLIB_INCLUDE_DIR} LIBRARIES ${HTTPLIB_LIBRARY})
+target_compile_definitions(alight_httplib INTERFACE CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT
+                                                    CPPHTTPLIB_BROTLI_SUPPORT)
+
 find_package(embree 3 REQUIRED)
 alight_imported(embree INCLUDES ${EMBREE_INCLUDE_DIRS} LIBRARIES ${EMBREE_LIBRARY})
 

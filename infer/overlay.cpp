@@ -38,72 +38,109 @@ cv::Mat black_with(cv::Size size, const std::string& text) {
   return image;
 }
 
-struct Range {
-  double min_m = 0;
-  double max_m = 0;
-};
+/// Dark diagonal stripes over the pixels of `mask`.
+void hatch(cv::Mat& image, const cv::Mat& mask) {
+  constexpr int kPeriod_px = 8;
+  constexpr int kStripe_px = 3;
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      if (mask.at<std::uint8_t>(v, u) != 0 && (u + v) % kPeriod_px < kStripe_px)
+        image.at<cv::Vec3b>(v, u) = image.at<cv::Vec3b>(v, u) * 0.45;
+    }
+  }
+}
 
-/// One colour scale for sparse and completed depth.
-Range range_of(const cv::Mat& depth_m) {
-  Range range;
-  const cv::Mat known = depth_m > 0;
-  if (cv::countNonZero(known) == 0) return range;
-  cv::minMaxLoc(depth_m, &range.min_m, &range.max_m, nullptr, nullptr, known);
-  range.max_m = std::max(range.max_m, range.min_m + 0.1);
-  return range;
+/// Green once the site counts, orange before.
+const cv::Scalar& colour_of(const TrackedSite& site) { return site.accepted ? kGreen : kOrange; }
+
+void draw_circle(cv::Mat& image, double u_px, double v_px, double radius_px, const cv::Scalar& colour) {
+  const cv::Point centre(static_cast<int>(std::lround(u_px)), static_cast<int>(std::lround(v_px)));
+  cv::circle(image, centre, static_cast<int>(std::lround(radius_px)), colour, 2, cv::LINE_AA);
+  cv::drawMarker(image, centre, colour, cv::MARKER_CROSS, 14, 2, cv::LINE_AA);
 }
 
 Panel depth_panel(const FrameReport& frame) {
   const DepthResult& depth = frame.depth;
-  if (depth.depth_m.empty()) return {"depth: none", black_with(depth.left.size(), "no trusted depth")};
-  const Range range = range_of(depth.depth_m);
+  if (depth.depth_m.empty()) return {"depth: none", depth_picture(frame)};
+  const ColourScale scale = colour_scale(depth.depth_m);
   char title[96];
   std::snprintf(title, sizeof title, "depth: %s, %.1f s LiDAR, %.1f-%.1f m", name(depth.source),
-                depth.accumulation_s, range.min_m, range.max_m);
-  return {title, colour_depth(depth.depth_m, range.min_m, range.max_m)};
+                depth.accumulation_s, scale.min_m, scale.max_m);
+  return {title, depth_picture(frame)};
 }
 
 Panel sparse_panel(const FrameReport& frame) {
   cv::Mat thick;  // single pixels vanish in a README
   cv::dilate(frame.depth.sparse_m, thick, cv::Mat::ones(2, 2, CV_8UC1));
-  const cv::Mat& scale = frame.depth.depth_m.empty() ? thick : frame.depth.depth_m;
-  const Range range = range_of(scale);
+  const ColourScale scale = colour_scale(frame.depth.depth_m.empty() ? thick : frame.depth.depth_m);
   char title[96];
   std::snprintf(title, sizeof title, "LiDAR: %d points, %.1f s", cv::countNonZero(frame.depth.sparse_m),
                 frame.depth.accumulation_s);
-  return {title, colour_depth(thick, range.min_m, range.max_m)};
+  return {title, colour_depth(thick, scale.min_m, scale.max_m)};
 }
 
 Panel safe_panel(const FrameReport& frame) {
-  if (!frame.selection) return {"safe ground", black_with(frame.depth.left.size(), "no trusted depth")};
-  const SiteSelection& selection = *frame.selection;
-  cv::Mat image(selection.safe.size(), CV_8UC3, cv::Scalar(40, 40, 40));
-  image.setTo(cv::Scalar(60, 60, 200), selection.terrain.known);
-  image.setTo(cv::Scalar(80, 170, 60), selection.safe);
-  return {"safe ground, seen level (green)", image};
+  return {frame.selection ? "safe ground, seen level (green)" : "safe ground", safe_picture(frame)};
 }
 
 Panel site_panel(const FrameReport& frame) {
-  cv::Mat image = in_colour(frame.depth.left);
+  cv::Mat image = site_picture(frame);
   if (!frame.image_site) {
     write(image, frame.selection ? describe(*frame.selection) : "no trusted depth", {8, 20}, kOrange);
     return {"landing site: none", image};
   }
-  const ImageSite& site = *frame.image_site;
   const TrackedSite& tracked = *frame.decision.site;
-  const cv::Scalar colour = tracked.accepted ? kGreen : kOrange;
-  const cv::Point centre(static_cast<int>(std::lround(site.u_px)), static_cast<int>(std::lround(site.v_px)));
-  cv::circle(image, centre, static_cast<int>(std::lround(site.radius_px)), colour, 2, cv::LINE_AA);
-  cv::drawMarker(image, centre, colour, cv::MARKER_CROSS, 14, 2, cv::LINE_AA);
   char text[64];
   std::snprintf(text, sizeof text, "R = %.1f m, %d frames", tracked.circle.radius_m, tracked.frames);
-  write(image, text, {8, 20}, colour);
+  write(image, text, {8, 20}, colour_of(tracked));
   return {tracked.accepted ? "landing site: accepted" : "landing site: not yet confirmed", image};
 }
 
 Panel image_panel(const FrameReport& frame) { return {"left image", in_colour(frame.depth.left)}; }
 
 }  // namespace
+
+ColourScale colour_scale(const cv::Mat& depth_m) {
+  ColourScale scale;
+  const cv::Mat known = depth_m > 0;
+  if (cv::countNonZero(known) == 0) return scale;
+  cv::minMaxLoc(depth_m, &scale.min_m, &scale.max_m, nullptr, nullptr, known);
+  scale.max_m = std::max(scale.max_m, scale.min_m + 0.1);
+  return scale;
+}
+
+cv::Mat site_picture(const FrameReport& frame) {
+  cv::Mat image = in_colour(frame.depth.left);
+  if (frame.image_site && frame.decision.site) {
+    const ImageSite& site = *frame.image_site;
+    draw_circle(image, site.u_px, site.v_px, site.radius_px, colour_of(*frame.decision.site));
+  }
+  return image;
+}
+
+cv::Mat depth_picture(const FrameReport& frame) {
+  const DepthResult& depth = frame.depth;
+  if (depth.depth_m.empty()) return black_with(depth.left.size(), "no trusted depth");
+  const ColourScale scale = colour_scale(depth.depth_m);
+  cv::Mat image = colour_depth(depth.depth_m, scale.min_m, scale.max_m);
+  hatch(image, depth.pixel_source == static_cast<int>(PixelSource::kInterpolated));
+  return image;
+}
+
+cv::Mat safe_picture(const FrameReport& frame) {
+  if (!frame.selection) return black_with(frame.depth.left.size(), "no trusted depth");
+  const SiteSelection& selection = *frame.selection;
+  cv::Mat image(selection.safe.size(), CV_8UC3, cv::Scalar(40, 40, 40));
+  image.setTo(cv::Scalar(60, 60, 200), selection.terrain.known);
+  image.setTo(cv::Scalar(80, 170, 60), selection.safe);
+  if (frame.decision.site) {
+    const TrackedSite& site = *frame.decision.site;
+    // The circle's own green would vanish on the green of safe ground.
+    const cv::Scalar& colour = site.accepted ? kWhite : kOrange;
+    draw_circle(image, site.circle.centre_px.x(), site.circle.centre_px.y(), site.circle.radius_px, colour);
+  }
+  return image;
+}
 
 cv::Mat panel_strip(const std::vector<Panel>& panels) {
   int width = -kGap_px;

@@ -1,0 +1,451 @@
+#include "infer/web/ground_station.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <httplib.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "infer/onboard/steady_time.hpp"
+#include "tests/web/reports.hpp"
+
+namespace alight {
+namespace {
+
+using Json = nlohmann::json;
+constexpr char kToken[] = "a token for tests";
+
+GroundStationConfig quick_config() {
+  GroundStationConfig config;
+  config.address = ":0";
+  config.token = kToken;
+  config.max_rate_hz = 100;
+  return config;
+}
+
+int port_of(const GroundStation& station) {
+  const std::string& url = station.url();
+  return std::stoi(url.substr(url.rfind(':') + 1));
+}
+
+/// A station on a free port of the loopback, and clients for it.
+class GroundStationTest : public testing::Test {
+ protected:
+  explicit GroundStationTest(const GroundStationConfig& config = quick_config())
+      : station_(std::make_unique<GroundStation>(config, mode_, reports::crop(), 5)),
+        port_(port_of(*station_)) {}
+
+  httplib::Client client() const {
+    httplib::Client client("127.0.0.1", port_);
+    client.set_keep_alive(true);
+    return client;
+  }
+  Json state() const {
+    auto answer = client().Get("/state");
+    return answer && answer->status == 200 ? Json::parse(answer->body) : Json();
+  }
+  static httplib::Headers bearer(const std::string& token) { return {{"Authorization", "Bearer " + token}}; }
+  int post_mode(const std::string& body, const httplib::Headers& headers) const {
+    auto answer = client().Post("/mode", headers, body, "application/json");
+    return answer ? answer->status : 0;
+  }
+  /// A connection that the test writes and reads byte by byte, or not at all.
+  int connect_raw() const {
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port_));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    return socket;
+  }
+  /// Sends bytes and reads until the server closes. @returns the beginning of the answer
+  std::string exchange(const std::string& request) const {
+    const int socket = connect_raw();
+    EXPECT_GE(send(socket, request.data(), request.size(), MSG_NOSIGNAL), 0);
+    std::string answer;
+    char bytes[4096];
+    for (ssize_t count = 0; (count = recv(socket, bytes, sizeof bytes, 0)) > 0;)
+      answer.append(bytes, static_cast<std::size_t>(count));
+    close(socket);
+    return answer;
+  }
+
+  ModeSwitch mode_;
+  std::unique_ptr<GroundStation> station_;
+  int port_;
+};
+
+TEST_F(GroundStationTest, ThePageIsWholeAndRunsNoForeignScript) {
+  auto answer = client().Get("/");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+  EXPECT_NE(answer->body.find("</html>"), std::string::npos);
+  EXPECT_EQ(answer->body.find("@NONCE@"), std::string::npos);
+  const std::string policy = answer->get_header_value("Content-Security-Policy");
+  const std::size_t begin = policy.find("script-src 'nonce-");
+  ASSERT_NE(begin, std::string::npos) << policy;
+  const std::string nonce = policy.substr(begin + 18, 32);
+  EXPECT_NE(answer->body.find("<script nonce=\"" + nonce + "\">"), std::string::npos);
+  EXPECT_EQ(policy.find("unsafe"), std::string::npos);
+  EXPECT_EQ(answer->get_header_value("Cache-Control"), "no-store");
+  EXPECT_EQ(answer->get_header_value("X-Content-Type-Options"), "nosniff");
+  // Nothing from elsewhere: a vehicle in the field has no internet.
+  EXPECT_EQ(answer->body.find("http://"), std::string::npos);
+  EXPECT_EQ(answer->body.find("https://"), std::string::npos);
+}
+
+TEST_F(GroundStationTest, TheStateBeforeTheFirstResultHasNoFrame) {
+  const Json json = state();
+  EXPECT_EQ(json["number"], 0);
+  EXPECT_TRUE(json["frame"].is_null());
+  EXPECT_TRUE(json["age_s"].is_null());
+  EXPECT_EQ(json["mode"], "manual");
+  EXPECT_EQ(json["sensors"].size(), 5U);
+}
+
+TEST_F(GroundStationTest, TheStateIsThatOfTheLatestResult) {
+  station_->on_message(AttitudeSample{});
+  station_->on_frame(reports::with_site(7'000'000'000, 3, false));
+  station_->set_statistics([] {
+    RunnerStatistics statistics;
+    statistics.images = 12;
+    statistics.queued = 4;
+    statistics.last_latency_ms = 31;
+    statistics.max_latency_ms = 77;
+    statistics.dropped["LiDAR packet without pose"] = 9;
+    return statistics;
+  });
+  const Json json = state();
+  EXPECT_EQ(json["number"], 1);
+  EXPECT_GE(json["age_s"].get<double>(), 0);
+  const Json& frame = json["frame"];
+  EXPECT_EQ(frame["landing"]["state"], "tracking");
+  EXPECT_EQ(frame["landing"]["text"], "tracking 3 of 5");
+  EXPECT_EQ(frame["landing"]["depth_m"], 20);
+  EXPECT_EQ(frame["result"]["source"], "lidar");
+  EXPECT_EQ(frame["result"]["t_ns"], 7'000'000'000);
+  EXPECT_EQ(frame["result"]["sim_pred"], 0.7);
+  EXPECT_EQ(frame["result"]["site"]["radius_m"], 3);
+  EXPECT_EQ(frame["depth"]["min_m"], 20);
+  EXPECT_EQ(frame["depth"]["predicted_share"], 0.5);
+  EXPECT_EQ(frame["depth"]["interpolated_share"], 0.25);
+  EXPECT_EQ(frame["depth"]["unknown_share"], 0.25);
+  EXPECT_EQ(frame["health"]["state"], "ok");
+  EXPECT_EQ(json["history"], Json::parse(R"([[7.0, "lidar", 0.3, 0.4, 0.8, 0.7, 0.02, 0.05]])"));
+  EXPECT_EQ(json["sensors"][2]["count"], 1);
+  EXPECT_EQ(json["engine"]["queued"], 4);
+  EXPECT_EQ(json["engine"]["last_latency_ms"], 31);
+  EXPECT_EQ(json["engine"]["dropped"][0]["reason"], "LiDAR packet without pose");
+  EXPECT_EQ(json["engine"]["dropped"][0]["count"], 9);
+}
+
+TEST_F(GroundStationTest, EveryLandingStateHasItsName) {
+  const auto shown = [this](const FrameReport& report) {
+    station_->on_frame(report);
+    std::this_thread::sleep_for(std::chrono::milliseconds(15));
+    return state()["frame"]["landing"]["state"].get<std::string>();
+  };
+  EXPECT_EQ(shown(reports::with_depth(1)), "looking");
+  EXPECT_EQ(shown(reports::with_site(2, 5, true)), "accepted");
+  EXPECT_EQ(shown(reports::without_depth(3)), "no_depth");
+  const Json json = state();
+  EXPECT_EQ(json["frame"]["landing"]["reason"], "no trusted depth: no pose");
+  ASSERT_EQ(json["frame"]["health"]["findings"].size(), 1U);
+  EXPECT_EQ(json["frame"]["health"]["findings"][0]["fault"], "lost");
+  EXPECT_EQ(json["frame"]["health"]["findings"][0]["for_s"], 2);
+  FrameReport wandering = reports::with_depth(4);
+  wandering.decision.wander = true;
+  EXPECT_EQ(shown(wandering), "wandering");
+}
+
+TEST_F(GroundStationTest, PicturesDecodeToTheCropsSize) {
+  station_->on_frame(reports::with_site(1, 5, true));
+  ASSERT_EQ(state()["number"], 1);
+  for (const char* name : {"left", "depth", "safe"}) {
+    auto answer = client().Get("/image/" + std::string(name) + ".jpg?frame=1");
+    ASSERT_TRUE(answer);
+    ASSERT_EQ(answer->status, 200) << name;
+    EXPECT_EQ(answer->get_header_value("Content-Type"), "image/jpeg");
+    const std::vector<char> bytes(answer->body.begin(), answer->body.end());
+    const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_COLOR);
+    EXPECT_EQ(image.size(), cv::Size(reports::kWidth_px, reports::kHeight_px)) << name;
+  }
+}
+
+TEST_F(GroundStationTest, WhatIsNotThereOrNotProperIsAClientsMistake) {
+  station_->on_frame(reports::with_depth(1));
+  ASSERT_EQ(state()["number"], 1);
+  const auto status = [this](const std::string& path) {
+    auto answer = client().Get(path);
+    return answer ? answer->status : 0;
+  };
+  EXPECT_EQ(status("/image/left.jpg?frame=99"), 404);
+  EXPECT_EQ(status("/image/right.jpg?frame=1"), 404);
+  EXPECT_EQ(status("/image/left.jpg"), 400);
+  EXPECT_EQ(status("/image/left.jpg?frame=-1"), 400);
+  EXPECT_EQ(status("/image/left.jpg?frame=99999999999999999999999"), 400);
+  EXPECT_EQ(status("/state?after=x"), 400);
+  EXPECT_EQ(status("/nothing"), 404);
+  EXPECT_EQ(status("/../../etc/passwd"), 404);
+  EXPECT_EQ(status("/mode"), 404);
+  EXPECT_EQ(status("/state?after=" + std::string(9000, '1')), 414);
+}
+
+TEST_F(GroundStationTest, TheModeSwitchNeedsTheToken) {
+  EXPECT_EQ(post_mode(R"({"mode":"automatic"})", {}), 401);
+  EXPECT_EQ(post_mode(R"({"mode":"automatic"})", bearer("a token for testt")), 401);
+  EXPECT_EQ(post_mode(R"({"mode":"automatic"})", bearer("")), 401);
+  EXPECT_EQ(post_mode(R"({"mode":"automatic"})", {{"Authorization", kToken}}), 401);
+  EXPECT_EQ(mode_.get(), FlightMode::kManual);
+  EXPECT_EQ(post_mode(R"({"mode":"automatic"})", bearer(kToken)), 200);
+  EXPECT_EQ(mode_.get(), FlightMode::kAutomatic);
+  EXPECT_EQ(state()["mode"], "automatic");
+  EXPECT_EQ(post_mode(R"({"mode":"manual"})", bearer(kToken)), 200);
+  EXPECT_EQ(mode_.get(), FlightMode::kManual);
+}
+
+TEST_F(GroundStationTest, AModeThatDoesNotExistChangesNothing) {
+  for (const char* body :
+       {"", "automatic", "{", "[]", R"({"mode":1})", R"({"mode":"auto"})", R"({"mood":"manual"})"})
+    EXPECT_EQ(post_mode(body, bearer(kToken)), 400) << body;
+  EXPECT_EQ(mode_.get(), FlightMode::kManual);
+}
+
+TEST_F(GroundStationTest, ForeignPagesAreRefusedEvenWithTheToken) {
+  auto headers = bearer(kToken);
+  headers.emplace("Origin", "http://evil.example");
+  EXPECT_EQ(post_mode(R"({"mode":"automatic"})", headers), 403);
+  auto rebound = bearer(kToken);
+  rebound.emplace("Host", "evil.example:" + std::to_string(port_));
+  EXPECT_EQ(post_mode(R"({"mode":"automatic"})", rebound), 421);
+  auto answer = client().Get("/state", {{"Host", "evil.example"}});
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 421);
+  EXPECT_EQ(mode_.get(), FlightMode::kManual);
+  auto own = bearer(kToken);
+  own.emplace("Origin", "http://127.0.0.1:" + std::to_string(port_));
+  EXPECT_EQ(post_mode(R"({"mode":"automatic"})", own), 200);
+}
+
+TEST_F(GroundStationTest, WhatIsTooLargeOrNoRequestIsRefused) {
+  const std::string host = "Host: 127.0.0.1\r\n";
+  EXPECT_EQ(exchange("nonsense\r\n\r\n").rfind("HTTP/1.1 400", 0), 0U);
+  EXPECT_EQ(exchange("GET /state HTTP/1.1\r\nConnection: close\r\n\r\n").rfind("HTTP/1.1 400", 0), 0U);
+  // A line, headers and a body without end: whatever is answered, the connection ends and nothing is kept.
+  std::string headers;
+  for (int i = 0; i < 5000; ++i) headers += "X-" + std::to_string(i) + ": y\r\n";
+  const std::string long_head = exchange("GET /state HTTP/1.1\r\n" + host + headers + "\r\n");
+  EXPECT_EQ(long_head.find("200 OK"), std::string::npos);
+  const std::string long_body =
+      exchange("POST /mode HTTP/1.1\r\n" + host + "Authorization: Bearer " + kToken +
+               "\r\nContent-Length: 1000000\r\n\r\n" + std::string(1000000, 'x'));
+  EXPECT_EQ(long_body.find("200 OK"), std::string::npos);
+  EXPECT_EQ(state()["mode"], "manual");
+}
+
+TEST_F(GroundStationTest, AViewerWhoWaitsGetsTheNextResult) {
+  station_->on_frame(reports::with_depth(1));
+  ASSERT_EQ(state()["number"], 1);
+  std::thread engine([this] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    station_->on_frame(reports::with_depth(2));
+  });
+  auto answer = client().Get("/state?after=1");
+  engine.join();
+  ASSERT_TRUE(answer);
+  const Json json = Json::parse(answer->body);
+  EXPECT_EQ(json["number"], 2);
+  EXPECT_EQ(json["history"].size(), 1U);
+}
+
+TEST_F(GroundStationTest, ViewersAtTheSameTimeSeeTheSame) {
+  constexpr int kViewers = 6;
+  std::atomic<bool> done{false};
+  std::atomic<int> pictures{0};
+  std::atomic<int> mistakes{0};
+  std::vector<std::thread> viewers;
+  for (int i = 0; i < kViewers; ++i) {
+    viewers.emplace_back([&] {
+      httplib::Client viewer = client();
+      std::int64_t seen = 0;
+      while (!done) {
+        auto answer = viewer.Get("/state?after=" + std::to_string(seen));
+        if (!answer || answer->status != 200) {
+          ++mistakes;
+          continue;
+        }
+        const Json json = Json::parse(answer->body);
+        if (json["number"] == seen) continue;
+        seen = json["number"];
+        if (json["frame"]["result"]["t_ns"] != seen * 1000) ++mistakes;
+        auto picture = viewer.Get("/image/depth.jpg?frame=" + std::to_string(seen));
+        if (picture && picture->status == 200) ++pictures;
+      }
+    });
+  }
+  for (int i = 1; i <= 40; ++i) {
+    station_->on_frame(reports::with_site(i * 1000, i, i >= 5));
+    station_->on_message(AttitudeSample{i * 1000, {}});
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  done = true;
+  station_->on_frame(reports::with_depth(41'000));
+  for (std::thread& viewer : viewers) viewer.join();
+  EXPECT_EQ(mistakes, 0);
+  EXPECT_GT(pictures, kViewers);
+}
+
+TEST_F(GroundStationTest, AClientThatStopsReadingDelaysNeitherTheEngineNorOthers) {
+  std::vector<int> sockets;
+  for (int i = 0; i < 4; ++i) {
+    sockets.push_back(connect_raw());
+    std::string requests;
+    for (int k = 0; k < 200; ++k) requests += "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";  // 4 MB of answers
+    EXPECT_GT(send(sockets.back(), requests.data(), requests.size(), MSG_NOSIGNAL), 0);
+  }
+  double longest_ms = 0;
+  const FrameReport report = reports::with_site(1, 5, true);
+  for (int i = 0; i < 200; ++i) {
+    const SteadyTime begin = steady_now();
+    station_->on_frame(report);
+    longest_ms = std::max(longest_ms, milliseconds(begin, steady_now()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  // It takes microseconds; a computer with other work may take the processor away for a while.
+  EXPECT_LT(longest_ms, 500);
+  EXPECT_GT(state()["number"], 0);
+  for (const int socket : sockets) close(socket);
+}
+
+TEST_F(GroundStationTest, EndsAtOnceWhileClientsAreConnected) {
+  const int silent = connect_raw();
+  const int half = connect_raw();
+  EXPECT_GT(send(half, "GET /sta", 8, MSG_NOSIGNAL), 0);
+  station_->on_frame(reports::with_depth(1));
+  httplib::Client idle = client();
+  ASSERT_TRUE(idle.Get("/state"));
+  std::thread waiting([this] { client().Get("/state?after=1"); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const SteadyTime begin = steady_now();
+  station_.reset();
+  EXPECT_LT(milliseconds(begin, steady_now()), 1000);
+  waiting.join();
+  close(silent);
+  close(half);
+}
+
+TEST_F(GroundStationTest, AStationThatNobodyLooksAtEnds) { station_.reset(); }
+
+TEST_F(GroundStationTest, APortInUseSaysWhoseFaultAndWhatToDo) {
+  GroundStationConfig config = quick_config();
+  config.address = ":" + std::to_string(port_);
+  try {
+    const GroundStation second(config, mode_, reports::crop(), 5);
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "web address 127.0.0.1:" + std::to_string(port_) +
+                  ": another program listens there; end it or name another port (:0 picks a free one)");
+  }
+}
+
+TEST_F(GroundStationTest, StatisticsAreNotAskedForOnceTakenBack) {
+  std::atomic<int> asked{0};
+  station_->set_statistics([&asked] {
+    ++asked;
+    return RunnerStatistics{};
+  });
+  state();
+  station_->set_statistics({});
+  const int before = asked;
+  EXPECT_EQ(before, 1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(120));
+  state();
+  EXPECT_EQ(asked, before);
+}
+
+/// At most two connections.
+class SmallStationTest : public GroundStationTest {
+ protected:
+  static GroundStationConfig small() {
+    GroundStationConfig config = quick_config();
+    config.max_connections = 2;
+    return config;
+  }
+  SmallStationTest() : GroundStationTest(small()) {}
+};
+
+TEST_F(SmallStationTest, MoreConnectionsThanAllowedAreTurnedAway) {
+  httplib::Client first = client();
+  httplib::Client second = client();
+  ASSERT_TRUE(first.Get("/state"));
+  ASSERT_TRUE(second.Get("/state"));
+  auto third = client().Get("/state");
+  ASSERT_TRUE(third);
+  EXPECT_EQ(third->status, 503);
+  first.stop();
+  for (int i = 0; i < 100 && state().is_null(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_FALSE(state().is_null());
+}
+
+/// Open to other computers.
+class OpenStationTest : public GroundStationTest {
+ protected:
+  static GroundStationConfig open() {
+    GroundStationConfig config = quick_config();
+    config.address = "0.0.0.0:0";
+    return config;
+  }
+  OpenStationTest() : GroundStationTest(open()) {}
+};
+
+TEST_F(OpenStationTest, NothingOfTheFlightIsSeenWithoutTheToken) {
+  const auto status = [this](const char* path, const httplib::Headers& headers) {
+    auto answer = client().Get(path, headers);
+    return answer ? answer->status : 0;
+  };
+  EXPECT_EQ(status("/", {}), 200);
+  EXPECT_EQ(status("/state", {}), 401);
+  EXPECT_EQ(status("/image/left.jpg?frame=1", {}), 401);
+  EXPECT_EQ(status("/state", bearer(kToken)), 200);
+}
+
+TEST(GroundStation, OtherComputersAreNotServedWithoutAToken) {
+  ModeSwitch mode;
+  GroundStationConfig config;
+  for (const char* address : {"0.0.0.0:0", "[::]:0"}) {
+    config.address = address;
+    EXPECT_THROW(GroundStation(config, mode, reports::crop(), 5), ConfigError) << address;
+  }
+  config.token = "short";
+  EXPECT_THROW(GroundStation(config, mode, reports::crop(), 5), ConfigError);
+}
+
+TEST(GroundStation, AnAddressThatIsNotOursIsADataError) {
+  ModeSwitch mode;
+  GroundStationConfig config = quick_config();
+  config.address = "192.0.2.1:0";  // set aside for documentation: no computer has it
+  EXPECT_THROW(GroundStation(config, mode, reports::crop(), 5), DataError);
+}
+
+TEST(GroundStation, WithoutATokenARandomOneIsMade) {
+  ModeSwitch mode;
+  GroundStationConfig config;
+  config.address = ":0";
+  const GroundStation station(config, mode, reports::crop(), 5);
+  EXPECT_EQ(station.token().size(), 32U);
+}
+
+}  // namespace
+}  // namespace alight
