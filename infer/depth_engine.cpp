@@ -178,8 +178,9 @@ void DepthEngine::open(Entry& entry, const Eigen::Isometry3d& T_world_camera) {
   int first_packets = 0;
   bool ask_network = true;
   begin_warm(first_packets, ask_network);
-  entry.task = std::make_unique<ImageTask>(config_.image, rig_, ask_network ? predictor : nullptr, entry.t_ns,
-                                           std::move(view), T_world_camera, std::move(stages_ms), first_packets);
+  entry.task =
+      std::make_unique<ImageTask>(config_.image, rig_, ask_network ? predictor : nullptr, entry.t_ns,
+                                  std::move(view), T_world_camera, std::move(stages_ms), first_packets);
   if (config_.history_s > 0) {
     for (const auto& packet : accumulator_.before(entry.t_ns, config_.history_s, config_.history_s + 0.5)) {
       entry.task->offer(packet);

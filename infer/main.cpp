@@ -13,6 +13,7 @@
 #include "infer/network_predictor.hpp"
 #include "infer/replay.hpp"
 #include "infer/shipped_model.hpp"
+#include "infer/web/ground_station.hpp"
 
 namespace alight {
 namespace {
@@ -30,6 +31,8 @@ struct Options {
   std::optional<std::string> dump;
   bool json = false;
   ReplayPace pace;
+  std::optional<std::string> web;
+  std::optional<std::string> web_token;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -55,8 +58,16 @@ void add_options(CLI::App& app, Options& options) {
       ->needs(network);
   app.add_flag("--json", options.json, "Print --benchmark-network's figures as a line of JSON")
       ->needs(network);
-  app.add_flag("--realtime", options.pace.realtime,
-               "Messages come when they came in flight; what the engine is too slow for is lost and counted");
+  auto* realtime = app.add_flag(
+      "--realtime", options.pace.realtime,
+      "Messages come when they came in flight; what the engine is too slow for is lost and counted");
+  auto* web = app.add_option("--web", options.web,
+                             "Serve the ground-station page there, such as :8080 for this computer alone")
+                  ->needs(realtime);
+  app.add_option(
+         "--web-token", options.web_token,
+         "Who has it may switch between automatic and manual; without: a random one, said at the start")
+      ->needs(web);
   app.add_option("--repeat", options.pace.rounds, "Replay the log so many times over")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
@@ -66,7 +77,7 @@ void add_options(CLI::App& app, Options& options) {
       "  alight-infer --config configs/infer/default.yaml --checkpoint runs/demo/best.pt --log flight.bag "
       "--output out/flight\n"
       "  alight-infer --log flight.bag --output out/lidar --lidar-only\n"
-      "  alight-infer --log flight.bag --realtime\n"
+      "  alight-infer --log flight.bag --realtime --web :8080\n"
       "  alight-infer --checkpoint runs/demo/best.pt --benchmark\n"
       "  alight-infer --config configs/infer/default.yaml --set engine.history_s=0 --print-config\n"
       "Writes results.jsonl (a line an image), overlay/*.png and method.png to the output folder.");
@@ -127,6 +138,22 @@ int run_benchmark(const Options& options, const ReplayConfig& config, const Rig&
   return kExitOk;
 }
 
+ReplaySummary run_replay(const Options& options, const ReplayConfig& config, const Rig& rig) {
+  const auto predictor = make_predictor(options, config, rig);
+  if (!options.web) return replay(config, rig, options.log, options.output, predictor, options.pace);
+  GroundStationConfig web;
+  web.address = *options.web;
+  web.token = options.web_token;
+  ModeSwitch mode;
+  GroundStation station(web, mode, DepthEngine(config.engine, rig, nullptr).crop(),
+                        config.landing.tracker.confirm_frames);
+  return replay(config, rig, options.log, options.output, predictor, options.pace, {&station},
+                [&](const EngineRunner* runner) {
+                  if (runner == nullptr) return station.set_statistics({});
+                  station.set_statistics([runner] { return runner->statistics(); });
+                });
+}
+
 int run(const Options& options) {
   const ReplayConfig config = resolve(options);
   if (print_if_asked(options.config, config)) return kExitOk;
@@ -137,8 +164,7 @@ int run(const Options& options) {
   const Rig rig = load_rig(find_rig_file(config.rig, options.config.file));
   if (options.benchmark_network) return run_network_benchmark(options, config, rig);
   if (options.benchmark) return run_benchmark(options, config, rig);
-  const ReplaySummary summary =
-      replay(config, rig, options.log, options.output, make_predictor(options, config, rig), options.pace);
+  const ReplaySummary summary = run_replay(options, config, rig);
   std::printf("%s", summary.page().c_str());
   if (!options.output.empty()) std::printf("\nresults: %s\n", options.output.c_str());
   return kExitOk;

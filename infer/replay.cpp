@@ -97,6 +97,23 @@ void ReplayResults::commit() {
 
 namespace {
 
+/// Whoever observes a runner hears of its end, however that comes.
+class Observation {
+ public:
+  Observation(const std::function<void(const EngineRunner*)>& observe, const EngineRunner& runner)
+      : observe_(observe) {
+    if (observe_) observe_(&runner);
+  }
+  ~Observation() {
+    if (observe_) observe_(nullptr);
+  }
+  Observation(const Observation&) = delete;
+  Observation& operator=(const Observation&) = delete;
+
+ private:
+  const std::function<void(const EngineRunner*)>& observe_;
+};
+
 void replay_at_once(LoopedLog& log, LandingPipeline& pipeline, const std::vector<FrameSink*>& sinks,
                     ProgressBar& bar) {
   std::int64_t images = 0;
@@ -133,7 +150,7 @@ void replay_in_real_time(LoopedLog& log, EngineRunner& runner, ProgressBar& bar)
 ReplaySummary replay(const ReplayConfig& config, const Rig& rig, const fs::path& log, const fs::path& output,
                      std::shared_ptr<DepthPredictor> predictor, const ReplayPace& pace,
                      const std::vector<FrameSink*>& sinks,
-                     const std::function<void(const EngineRunner&)>& observe) {
+                     const std::function<void(const EngineRunner*)>& observe) {
   auto pipeline = std::make_unique<LandingPipeline>(config.engine, config.landing, rig, std::move(predictor));
   ReplayResults results(config, output, pipeline->engine().crop());
   std::vector<FrameSink*> all{&results};
@@ -143,7 +160,7 @@ ReplaySummary replay(const ReplayConfig& config, const Rig& rig, const fs::path&
   ReplaySummary& summary = results.summary();
   if (pace.realtime) {
     EngineRunner runner(config.queue, std::move(pipeline), all);
-    if (observe) observe(runner);
+    const Observation observation(observe, runner);
     const SteadyTime begin = steady_now();
     replay_in_real_time(flight, runner, bar);
     summary.live = runner.statistics();

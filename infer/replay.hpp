@@ -58,12 +58,12 @@ struct ReplayPace {
 };
 
 /// Replays a ROS 1 bag in the order in which it was recorded; results go to `results`, then to the other sinks.
-/// @param observe called with the engine's thread before the first message; realtime only
+/// @param observe called with the runner before the first message, and with null before it goes; realtime only
 /// @returns the summary, `results` committed. @throws DataError (log, output), ConfigError (rig)
 ReplaySummary replay(const ReplayConfig& config, const Rig& rig, const std::filesystem::path& log,
                      const std::filesystem::path& output, std::shared_ptr<DepthPredictor> predictor,
                      const ReplayPace& pace = {}, const std::vector<FrameSink*>& sinks = {},
-                     const std::function<void(const EngineRunner&)>& observe = {});
+                     const std::function<void(const EngineRunner*)>& observe = {});
 
 /// The rig of the images that the engine will show to a predictor.
 RectifiedRig engine_rig(const DepthEngineConfig& config, const Rig& rig);
