@@ -4,12 +4,20 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <opencv2/core/utility.hpp>
 
 #include "infer/result_writer.hpp"
 #include "tests/infer/fakes.hpp"
 
 namespace alight {
 namespace {
+
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+/// OpenCV's own threads hand over their work by means that ThreadSanitizer does not see.
+const bool kOneThread = (cv::setNumThreads(0), true);
+#endif
+#endif
 
 constexpr double kHeight_m = 12.0;
 
