@@ -12,6 +12,7 @@ module_of() {
   case $1 in
     tensorboard) echo tensorboard ;;
     onnxruntime) echo onnxruntime ;;
+    pymavlink) echo pymavlink ;;
     *) return 1 ;;
   esac
 }
@@ -19,6 +20,7 @@ packages_of() {
   case $1 in
     tensorboard) echo 'tensorboard>=2.15,<3' pillow ;;
     onnxruntime) echo 'onnxruntime>=1.16,<2' ;;
+    pymavlink) echo 'pymavlink>=2.4.40,<3' ;;
   esac
 }
 
@@ -27,9 +29,9 @@ skip() {
   exit 77
 }
 
-[ $# -gt 0 ] || { echo "usage: scripts/python_peers.sh peer...   (peers: tensorboard, onnxruntime)" >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: scripts/python_peers.sh peer...   (peers: tensorboard, onnxruntime, pymavlink)" >&2; exit 2; }
 for peer in "$@"; do
-  module_of "$peer" >/dev/null || { echo "python_peers: $peer: no such peer (peers: tensorboard, onnxruntime)" >&2; exit 2; }
+  module_of "$peer" >/dev/null || { echo "python_peers: $peer: no such peer (peers: tensorboard, onnxruntime, pymavlink)" >&2; exit 2; }
 done
 
 mkdir -p "$(dirname "$folder")"
