@@ -9,6 +9,8 @@ const char* reason_to_withhold(const FrameReport& frame, FlightMode mode, double
   if (!frame.decision.site) return "no landing site";
   if (!frame.decision.site->accepted) return "landing site not confirmed";
   if (!frame.depth.T_world_camera) return "no pose";
+  if (!frame.depth.T_world_camera->matrix().allFinite() || !frame.decision.site->p_world.allFinite())
+    return "position not finite";
   if (!(age_s <= max_age_s)) return "result too old";
   return nullptr;
 }

@@ -11,6 +11,7 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -82,12 +83,8 @@ class SerialPort {
     return all;
   }
   void unplug() { autopilot_ = FileDescriptor(), computer_ = FileDescriptor(); }
-  /// As if the autopilot no longer took bytes: writes until no more go in.
-  void jam() const {
-    const Bytes bytes(256, 0x55);
-    while (::write(computer_.get(), bytes.data(), bytes.size()) > 0) {
-    }
-  }
+  /// As if the autopilot no longer took bytes.
+  void jam() const { EXPECT_EQ(::tcflow(computer_.get(), TCOOFF), 0); }
 
  private:
   FileDescriptor autopilot_;

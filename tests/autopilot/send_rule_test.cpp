@@ -55,6 +55,16 @@ TEST(SendRule, NothingIsSentWithoutAPose) {
   EXPECT_STREQ(reason(frame), "no pose");
 }
 
+TEST(SendRule, NothingIsSentThatIsNoNumber) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  FrameReport site = reports::confirmed();
+  site.decision.site->p_world.z() = kNan;
+  EXPECT_STREQ(reason(site), "position not finite");
+  FrameReport pose = reports::confirmed();
+  pose.depth.T_world_camera->translation().x() = kNan;
+  EXPECT_STREQ(reason(pose), "position not finite");
+}
+
 TEST(SendRule, NothingIsSentThatIsTooOld) {
   EXPECT_EQ(reason(reports::confirmed(), FlightMode::kAutomatic, 0.5), nullptr);
   EXPECT_STREQ(reason(reports::confirmed(), FlightMode::kAutomatic, 0.51), "result too old");
