@@ -13,6 +13,7 @@ module_of() {
     tensorboard) echo tensorboard ;;
     onnxruntime) echo onnxruntime ;;
     openvino) echo openvino ;;
+    pymavlink) echo pymavlink ;;
     *) return 1 ;;
   esac
 }
@@ -21,6 +22,7 @@ packages_of() {
     tensorboard) echo 'tensorboard>=2.15,<3' pillow ;;
     onnxruntime) echo 'onnxruntime>=1.16,<2' ;;
     openvino) echo 'openvino>=2024' ;;
+    pymavlink) echo 'pymavlink>=2.4.40,<3' ;;
   esac
 }
 
@@ -29,9 +31,9 @@ skip() {
   exit 77
 }
 
-[ $# -gt 0 ] || { echo "usage: scripts/python_peers.sh peer...   (peers: tensorboard, onnxruntime, openvino)" >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: scripts/python_peers.sh peer...   (peers: tensorboard, onnxruntime, openvino, pymavlink)" >&2; exit 2; }
 for peer in "$@"; do
-  module_of "$peer" >/dev/null || { echo "python_peers: $peer: no such peer (peers: tensorboard, onnxruntime, openvino)" >&2; exit 2; }
+  module_of "$peer" >/dev/null || { echo "python_peers: $peer: no such peer (peers: tensorboard, onnxruntime, openvino, pymavlink)" >&2; exit 2; }
 done
 
 mkdir -p "$(dirname "$folder")"
