@@ -1,17 +1,11 @@
 #include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <optional>
 #include <string>
-
-#include <spdlog/spdlog.h>
 
 #include "cli/command_line.hpp"
 #include "dataset/dataset_builder.hpp"
 #include "infer/benchmark.hpp"
-#include "infer/network_predictor.hpp"
+#include "infer/chosen_predictor.hpp"
 #include "infer/replay.hpp"
-#include "infer/shipped_model.hpp"
 
 namespace alight {
 namespace {
@@ -63,24 +57,8 @@ ReplayConfig resolve(const Options& options) {
   return config;
 }
 
-/// The network that was named, or the one that comes with the program.
-std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const ReplayConfig& config,
-                                               const Rig& rig) {
-  if (options.lidar_only) return nullptr;
-  std::optional<std::filesystem::path> checkpoint;
-  if (config.checkpoint) checkpoint = *config.checkpoint;
-  if (!checkpoint && (checkpoint = find_shipped_model(this_executable()))) {
-    spdlog::info("network: {} (no --checkpoint was named)", checkpoint->string());
-  }
-  if (!checkpoint) {
-    throw ConfigError(
-        "no network: none came with this program; name one with --checkpoint, or say --lidar-only");
-  }
-  return make_network_predictor(*checkpoint, engine_rig(config.engine, rig), config.network);
-}
-
 int run_benchmark(const Options& options, const ReplayConfig& config, const Rig& rig) {
-  const auto predictor = make_predictor(options, config, rig);
+  const auto predictor = make_chosen_predictor(config, rig, options.lidar_only);
   if (!options.log.empty()) {
     std::printf("%s", replay(config, rig, options.log, "", predictor, options.pace).page().c_str());
     return kExitOk;
@@ -106,8 +84,8 @@ int run(const Options& options) {
     throw ConfigError("--output is missing: name the folder to make");
   const Rig rig = load_rig(find_rig_file(config.rig, options.config.file));
   if (options.benchmark) return run_benchmark(options, config, rig);
-  const ReplaySummary summary =
-      replay(config, rig, options.log, options.output, make_predictor(options, config, rig), options.pace);
+  const ReplaySummary summary = replay(config, rig, options.log, options.output,
+                                       make_chosen_predictor(config, rig, options.lidar_only), options.pace);
   std::printf("%s", summary.page().c_str());
   if (!options.output.empty()) std::printf("\nresults: %s\n", options.output.c_str());
   return kExitOk;

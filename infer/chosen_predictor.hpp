@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "geometry/rig.hpp"
+#include "infer/depth_predictor.hpp"
+#include "infer/replay.hpp"
+
+namespace alight {
+
+/// The network that the configuration names, or the one that comes with the program.
+/// @param lidar_only no network: null. @throws ConfigError if there is none, and as make_network_predictor
+std::shared_ptr<DepthPredictor> make_chosen_predictor(const ReplayConfig& config, const Rig& rig,
+                                                      bool lidar_only);
+
+}  // namespace alight
