@@ -5,8 +5,6 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseStamped.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ros/node_handle.h>
 #include <ros/param.h>
@@ -15,6 +13,9 @@
 #include <sensor_msgs/Image.h>
 #include <std_msgs/String.h>
 #include <std_srvs/SetBool.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "infer/replay.hpp"
 #include "ros/report_messages.hpp"
@@ -123,7 +124,8 @@ class NodeTest : public ::testing::Test {
     if (!folder_.empty()) fs::remove_all(folder_.parent_path());
   }
   void SetUp() override {
-    if (!ros_is_installed()) GTEST_SKIP() << "ROS 1's master and player are not installed (scripts/setup.sh --full)";
+    if (!ros_is_installed())
+      GTEST_SKIP() << "ROS 1's master and player are not installed (scripts/setup.sh --full)";
   }
 
   static std::vector<std::string> node_command(const std::vector<std::string>& parameters) {
@@ -139,10 +141,22 @@ class NodeTest : public ::testing::Test {
       ros::param::del("/alight/" + parameter.substr(1, parameter.find(":=") - 1));
     return node.said();
   }
+  /// Plays the flight's topics that the node reads, once it has subscribed to all of them.
   static void play(const std::string& rate, const std::string& duration_s) {
-    Program player({"/usr/bin/rosbag", "play", "--quiet", "--clock", "--hz=1000", "--wait-for-subscribers",
-                    "--rate=" + rate, "--duration=" + duration_s, (quick_flight() / "quick.bag").string()},
-                   folder_ / "play.log");
+    const Rig rig = load_rig(ALIGHT_SOURCE_DIR "/" + ReplayConfig{}.rig);
+    std::vector<std::string> command = {"/usr/bin/rosbag",
+                                        "play",
+                                        "--quiet",
+                                        "--clock",
+                                        "--hz=1000",
+                                        "--wait-for-subscribers",
+                                        "--rate=" + rate,
+                                        "--duration=" + duration_s,
+                                        (quick_flight() / "quick.bag").string(),
+                                        "--topics"};
+    for (const auto& [sensor, topic] : sensor_topics(rig, LogConfig{}))
+      command.push_back(role(sensor) == LogRole::kImage ? topic + "/compressed" : topic);
+    Program player(command, folder_ / "play.log");
     EXPECT_TRUE(wait_for([&] { return !player.running(); }, 60)) << player.said();
     EXPECT_EQ(player.wait(1), 0) << player.said();
   }
@@ -178,7 +192,8 @@ TEST_F(NodeTest, GivesTheReplaysResultsBitForBit) {
   ros::NodeHandle handle;
   Listener heard(handle);
   Program node(node_command({std::string("_config:=") + kConfig, "_lidar_only:=true"}), folder_ / "node.log");
-  ASSERT_TRUE(wait_for([&] { return heard.connected() && !heard.mode.empty(); }, kStartTimeout_s)) << node.said();
+  ASSERT_TRUE(wait_for([&] { return heard.connected() && !heard.mode.empty(); }, kStartTimeout_s))
+      << node.said();
   EXPECT_EQ(heard.mode, "manual");
   ASSERT_TRUE(set_mode(true));
   EXPECT_TRUE(wait_for([&] { return heard.mode == "automatic"; }, 5));
@@ -186,7 +201,8 @@ TEST_F(NodeTest, GivesTheReplaysResultsBitForBit) {
   play("0.25", "60");
   ASSERT_FALSE(expected.empty());
   const auto finished = [&] { return heard.results.size() + kMaxUnfinished >= expected.size(); };
-  EXPECT_TRUE(wait_for([&] { return finished() && heard.depth.size() == heard.results.size(); }, 10)) << node.said();
+  EXPECT_TRUE(wait_for([&] { return finished() && heard.depth.size() == heard.results.size(); }, 10))
+      << node.said();
   EXPECT_LE(heard.results.size(), expected.size());
   ASSERT_EQ(heard.depth.size(), heard.results.size());
   ASSERT_EQ(heard.infos.size(), heard.results.size());
@@ -208,7 +224,10 @@ TEST_F(NodeTest, GivesTheReplaysResultsBitForBit) {
   EXPECT_EQ(heard.depth.front().header.frame_id, "left_camera_optical_frame");
 
   EXPECT_TRUE(wait_for(
-      [&] { return value(heard.statuses["/alight: engine"], "images") == std::to_string(heard.results.size()); }, 5));
+      [&] {
+        return value(heard.statuses["/alight: engine"], "images") == std::to_string(heard.results.size());
+      },
+      5));
   EXPECT_EQ(heard.statuses["/alight: sensors"].level, diagnostic_msgs::DiagnosticStatus::OK);
   EXPECT_THAT(value(heard.statuses["/alight: topics"], "/livox/lidar"), HasSubstr("LiDAR"));
   for (const auto& pair : heard.statuses["/alight: engine"].values)

@@ -76,7 +76,8 @@ TEST(ReportMessagesTest, PointsLieOnTheirPixelsRays) {
   EXPECT_EQ(rgb, 0x0000ffu);
   std::memcpy(&rgb, &cloud.data[3 * 4], sizeof rgb);
   EXPECT_EQ(rgb, 0x0a141eu);
-  EXPECT_EQ(points(small_frame(), kCamera, 2, {}).width, 5u);  // rows 0, 2; columns 0, 2, 4; without the corner
+  EXPECT_EQ(points(small_frame(), kCamera, 2, {}).width,
+            5u);  // rows 0, 2; columns 0, 2, 4; without the corner
 }
 
 TEST(ReportMessagesTest, TheMarkerIsACircleOfTheSitesRadius) {
@@ -139,7 +140,8 @@ TEST(ReportMessagesTest, OnlyNewLossesAreAWarning) {
   RunnerStatistics statistics;
   statistics.dropped["too slow"] = 4;
   const FrameReport last = small_frame();
-  EXPECT_EQ(engine_status("/alight", statistics, {}, &last, 3).level, diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_EQ(engine_status("/alight", statistics, {}, &last, 3).level,
+            diagnostic_msgs::DiagnosticStatus::WARN);
   const auto unchanged = engine_status("/alight", statistics, {{"no echo", 7}}, &last, 4);
   EXPECT_EQ(unchanged.level, diagnostic_msgs::DiagnosticStatus::OK);
   EXPECT_EQ(unchanged.values.back().key, "not read: no echo");
