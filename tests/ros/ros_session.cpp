@@ -7,11 +7,11 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
-#include <ros/init.h>
 #include <ros/master.h>
 #include <ros/node_handle.h>
 #include <sys/socket.h>

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include <ros/callback_queue.h>
+#include <ros/init.h>
 #include <sys/types.h>
 
 namespace alight::test {
@@ -44,16 +47,7 @@ class RosSession {
 
 /// Waits for a condition, serving ROS's callbacks. @returns whether it came true
 template <class Condition>
-bool wait_for(const Condition& condition, double timeout_s);
-
-}  // namespace alight::test
-
-#include <chrono>
-
-#include <ros/callback_queue.h>
-
-template <class Condition>
-bool alight::test::wait_for(const Condition& condition, double timeout_s) {
+bool wait_for(const Condition& condition, double timeout_s) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
@@ -61,3 +55,5 @@ bool alight::test::wait_for(const Condition& condition, double timeout_s) {
   }
   return true;
 }
+
+}  // namespace alight::test
