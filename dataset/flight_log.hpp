@@ -4,27 +4,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
-#include "configs/config_reader.hpp"
+#include "dataset/log_config.hpp"
 #include "dataset/messages/message_types.hpp"
 #include "geometry/rig.hpp"
 
 namespace alight {
-
-/// How a log is read. Topics of cameras and LiDAR stand in the rig; with `/compressed` appended they are
-/// found too.
-struct LogConfig {
-  std::string attitude_topic = "/dji_sdk/attitude";
-  std::string position_topic = "/dji_sdk/gps_position";
-  std::optional<std::string> height_topic = "/dji_sdk/height_above_takeoff";  ///< none: heights are unknown
-  double stereo_pair_tolerance_s = 0.002;  ///< left and right of one exposure differ by no more than this
-  double min_range_m = 0.5;                ///< LiDAR returns nearer than this are dropped
-  double max_range_m = 300.0;              ///< and farther than this
-  double max_bad_message_share = 0.01;     ///< of a topic's messages; more that do not decode are fatal
-};
-void bind(Binder& b, LogConfig& c);
 
 /// What was read, and what was left out and why.
 struct LogSummary {
@@ -35,9 +21,9 @@ struct LogSummary {
   std::map<std::string, std::int64_t> dropped;         ///< reason -> count; grows while reading
 };
 
-/// A ROS 1 bag as typed messages in the order in which they were recorded, with the rig's time shifts applied
-/// (Kalibr: t_imu = t_sensor + timeshift) and left and right images paired. The same order is what an onboard
-/// program would have seen, so replay and data set building share this class.
+/// A ROS 1 bag as typed messages in the order in which they were recorded, with the rig's time shifts applied and left
+/// and right images paired (MessageAssembler). The same order is what an onboard program would have seen, so replay and
+/// data set building share this class.
 class FlightLog {
  public:
   /// @throws DataError if the file is missing, empty, truncated or damaged, if a needed topic (images, LiDAR,

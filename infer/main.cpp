@@ -1,18 +1,13 @@
 #include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <optional>
 #include <string>
-
-#include <spdlog/spdlog.h>
 
 #include "cli/command_line.hpp"
 #include "dataset/dataset_builder.hpp"
+#include "infer/autopilot/autopilot_link.hpp"
 #include "infer/benchmark.hpp"
+#include "infer/chosen_predictor.hpp"
 #include "infer/network_benchmark.hpp"
-#include "infer/network_predictor.hpp"
 #include "infer/replay.hpp"
-#include "infer/shipped_model.hpp"
 #include "infer/web/ground_station.hpp"
 
 namespace alight {
@@ -33,6 +28,8 @@ struct Options {
   ReplayPace pace;
   std::optional<std::string> web;
   std::optional<std::string> web_token;
+  std::optional<std::string> autopilot;
+  bool automatic = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -68,6 +65,13 @@ void add_options(CLI::App& app, Options& options) {
          "--web-token", options.web_token,
          "Who has it may switch between automatic and manual; without: a random one, said at the start")
       ->needs(web);
+  app.add_option(
+         "--autopilot", options.autopilot,
+         "Send landing sites there by MAVLink, such as udp:127.0.0.1:14550; in place of the configuration's")
+      ->needs(realtime);
+  app.add_flag("--automatic", options.automatic,
+               "Begin in automatic mode; else a person flies, and no landing site is sent")
+      ->needs(realtime);
   app.add_option("--repeat", options.pace.rounds, "Replay the log so many times over")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
@@ -87,41 +91,22 @@ ReplayConfig resolve(const Options& options) {
   auto config = load<ReplayConfig>(options.config);
   if (!options.landing.empty()) config.landing = load_config<LandingConfig>(options.landing);
   if (!options.checkpoint.empty()) config.checkpoint = options.checkpoint;
+  if (options.autopilot) config.autopilot.connection = options.autopilot;
   if (options.lidar_only) config.checkpoint.reset();
   return config;
-}
-
-/// The network that was named, or the one that comes with the program.
-std::filesystem::path network_file(const ReplayConfig& config) {
-  std::optional<std::filesystem::path> checkpoint;
-  if (config.checkpoint) checkpoint = *config.checkpoint;
-  if (!checkpoint && (checkpoint = find_shipped_model(this_executable()))) {
-    spdlog::info("network: {} (no --checkpoint was named)", checkpoint->string());
-  }
-  if (!checkpoint) {
-    throw ConfigError(
-        "no network: none came with this program; name one with --checkpoint, or say --lidar-only");
-  }
-  return *checkpoint;
-}
-
-std::shared_ptr<DepthPredictor> make_predictor(const Options& options, const ReplayConfig& config,
-                                               const Rig& rig) {
-  if (options.lidar_only) return nullptr;
-  return make_network_predictor(network_file(config), engine_rig(config.engine, rig), config.network);
 }
 
 int run_network_benchmark(const Options& options, const ReplayConfig& config, const Rig& rig) {
   const RectifiedRig camera = engine_rig(config.engine, rig);
   const NetworkBenchmark result =
-      benchmark_network(network_file(config), camera.intrinsics, camera.baseline_m, config.network,
+      benchmark_network(chosen_network(config), camera.intrinsics, camera.baseline_m, config.network,
                         options.benchmark_runs, options.dump);
   std::fputs((options.json ? result.json() : result.table()).c_str(), stdout);
   return kExitOk;
 }
 
 int run_benchmark(const Options& options, const ReplayConfig& config, const Rig& rig) {
-  const auto predictor = make_predictor(options, config, rig);
+  const auto predictor = make_chosen_predictor(config, rig, options.lidar_only);
   if (!options.log.empty()) {
     std::printf("%s", replay(config, rig, options.log, "", predictor, options.pace).page().c_str());
     return kExitOk;
@@ -139,18 +124,26 @@ int run_benchmark(const Options& options, const ReplayConfig& config, const Rig&
 }
 
 ReplaySummary run_replay(const Options& options, const ReplayConfig& config, const Rig& rig) {
-  const auto predictor = make_predictor(options, config, rig);
-  if (!options.web) return replay(config, rig, options.log, options.output, predictor, options.pace);
-  GroundStationConfig web;
-  web.address = *options.web;
-  web.token = options.web_token;
-  ModeSwitch mode;
-  GroundStation station(web, mode, DepthEngine(config.engine, rig, nullptr).crop(),
-                        config.landing.tracker.confirm_frames);
-  return replay(config, rig, options.log, options.output, predictor, options.pace, {&station},
+  const auto predictor = make_chosen_predictor(config, rig, options.lidar_only);
+  if (!options.pace.realtime)
+    return replay(config, rig, options.log, options.output, predictor, options.pace);
+  const DepthEngine camera(config.engine, rig, nullptr);
+  ModeSwitch mode(options.automatic ? FlightMode::kAutomatic : FlightMode::kManual);
+  AutopilotLink autopilot(config.autopilot, camera.rig(), mode);
+  std::vector<FrameSink*> sinks{&autopilot};
+  std::optional<GroundStation> station;
+  if (options.web) {
+    GroundStationConfig web;
+    web.address = *options.web;
+    web.token = options.web_token;
+    station.emplace(web, mode, camera.crop(), config.landing.tracker.confirm_frames);
+    sinks.push_back(&*station);
+  }
+  return replay(config, rig, options.log, options.output, predictor, options.pace, sinks,
                 [&](const EngineRunner* runner) {
-                  if (runner == nullptr) return station.set_statistics({});
-                  station.set_statistics([runner] { return runner->statistics(); });
+                  if (!station) return;
+                  if (runner == nullptr) return station->set_statistics({});
+                  station->set_statistics([runner] { return runner->statistics(); });
                 });
 }
 

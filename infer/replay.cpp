@@ -78,6 +78,7 @@ void bind(Binder& b, ReplayConfig& c) {
   b.section("network", c.network, "where and how the network runs");
   b.section("engine", c.engine, "how messages become depth");
   b.section("landing", c.landing, "how depth becomes a landing site");
+  b.section("autopilot", c.autopilot, "how landing sites are sent to the autopilot, in real time");
 }
 
 ReplayResults::ReplayResults(const ReplayConfig& config, const fs::path& output, const cv::Rect& crop) {

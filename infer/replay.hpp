@@ -9,6 +9,7 @@
 
 #include "configs/config_reader.hpp"
 #include "dataset/flight_log.hpp"
+#include "infer/autopilot/autopilot_config.hpp"
 #include "infer/landing_pipeline.hpp"
 #include "infer/network_config.hpp"
 #include "infer/onboard/engine_runner.hpp"
@@ -27,6 +28,7 @@ struct ReplayConfig {
   MessageQueueConfig queue;
   DepthEngineConfig engine;
   LandingConfig landing;
+  AutopilotConfig autopilot;
 };
 void bind(Binder& b, ReplayConfig& c);
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what Alight needs from Debian 12's package archive. Safe to run again; needs root or sudo.
 #   scripts/setup.sh          what the build and the tests need
-#   scripts/setup.sh --full   and what the comparisons with LibTorch's Python side need (skipped without it)
+#   scripts/setup.sh --full   and what the comparisons with LibTorch's Python side and the ROS node's test need
+#                             (skipped without it)
 set -euo pipefail
 
 packages=(
@@ -12,10 +13,13 @@ packages=(
   nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
   # ROS 1 logs
   librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev
+  # ROS 1 node (its build; a machine that has these but no master skips the node's test)
+  libroscpp-dev libtopic-tools-dev libdiagnostic-msgs-dev libstd-srvs-dev libtf2-msgs-dev libvisualization-msgs-dev
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag python3-venv
 )
-full_packages=(python3-torch python3-yaml python3-numpy python3-opencv)
+full_packages=(python3-torch python3-yaml python3-numpy python3-opencv
+               python3-roslaunch python3-rosmaster rosout)  # a ROS 1 master; python3-rosbag plays
 
 case "${1:-}" in
   "") ;;

@@ -3,8 +3,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include <gtest/gtest.h>
 #include <opencv2/core/utility.hpp>
+
+#include <gtest/gtest.h>
 
 #include "infer/result_writer.hpp"
 #include "tests/infer/fakes.hpp"

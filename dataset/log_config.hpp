@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "configs/config_reader.hpp"
+#include "dataset/messages/decoders.hpp"
+#include "geometry/rig.hpp"
+
+namespace alight {
+
+/// How a log or live topics are read. Topics of cameras and LiDAR stand in the rig; with `/compressed` appended they are
+/// found too.
+struct LogConfig {
+  std::string attitude_topic = "/dji_sdk/attitude";
+  std::string position_topic = "/dji_sdk/gps_position";
+  std::optional<std::string> height_topic = "/dji_sdk/height_above_takeoff";  ///< none: heights are unknown
+  double stereo_pair_tolerance_s = 0.002;  ///< left and right of one exposure differ by no more than this
+  double min_range_m = 0.5;                ///< LiDAR returns nearer than this are dropped
+  double max_range_m = 300.0;              ///< and farther than this
+  double max_bad_message_share = 0.01;     ///< of a topic's messages; more that do not decode are fatal
+};
+void bind(Binder& b, LogConfig& c);
+
+/// What a topic is read for; unlike a LogRole it tells left from right.
+enum class Sensor { kLeft, kRight, kLidar, kAttitude, kPosition, kHeight };
+/// "left camera", "right camera", "LiDAR", "attitude", "position", "height"
+const char* name(Sensor sensor);
+LogRole role(Sensor sensor);
+
+struct SensorTopic {
+  Sensor sensor = Sensor::kLeft;
+  std::string topic;
+};
+/// The topics of a rig's sensors and of the vehicle. @throws ConfigError if the rig names none for a camera or LiDAR
+std::vector<SensorTopic> sensor_topics(const Rig& rig, const LogConfig& config);
+
+/// The decoder of a topic's messages. @throws DataError, which names topic and sensor, if the type has none or is of
+/// another version
+const Decoder& require_decoder(const SensorTopic& topic, const std::string& type, const std::string& md5);
+
+}  // namespace alight

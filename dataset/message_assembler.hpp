@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "dataset/log_config.hpp"
+#include "dataset/messages/decoders.hpp"
+#include "dataset/stereo_pairing.hpp"
+#include "geometry/rig.hpp"
+
+namespace alight {
+
+/// From the bytes of ROS messages to what the engine takes: decoded, with the rig's time shifts applied (Kalibr: t_imu =
+/// t_sensor + timeshift) and left and right images paired. Logs and live topics go through this one class, so that the
+/// same messages in the same order give the same results.
+class MessageAssembler {
+ public:
+  MessageAssembler(const Rig& rig, const LogConfig& config);
+
+  /// @throws DecodeError if the bytes are not what the type promises, or an image has another size than the rig's camera
+  void add(Sensor sensor, const Decoder& decoder, const RawMessage& raw);
+  /// The next message that is complete; empty: there is none yet.
+  std::optional<LogMessage> take();
+
+  /// What held no measurement or is out of range: reason -> count.
+  const std::map<std::string, std::int64_t>& dropped() const { return dropped_; }
+  /// Images that had no partner, without those that still wait for one; and those.
+  std::int64_t unpaired() const { return pairer_.unpaired(); }
+  std::int64_t waiting() const { return pairer_.waiting(); }
+
+ private:
+  void require_size(const CameraImage& image) const;
+  void accept(Sensor sensor, DecodedMessage decoded);
+  void accept_image(Sensor sensor, CameraImage image);
+  void accept_packet(LidarPacket packet);
+
+  Rig rig_;
+  DecodeOptions options_;
+  StereoPairer pairer_;
+  std::deque<LogMessage> ready_;
+  std::map<std::string, std::int64_t> dropped_;
+};
+
+}  // namespace alight

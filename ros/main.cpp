@@ -1,0 +1,45 @@
+#include <exception>
+#include <string>
+
+#include <ros/console.h>
+#include <ros/init.h>
+
+#include "cli/command_line.hpp"
+#include "configs/errors.hpp"
+#include "dataset/dataset_builder.hpp"
+#include "infer/chosen_predictor.hpp"
+#include "ros/landing_node.hpp"
+
+namespace alight {
+namespace {
+
+void run() {
+  const NodeConfig config = read_parameters(ros::NodeHandle("~"));
+  const ReplayConfig replay = resolve(config);
+  const Rig rig = load_rig(find_rig_file(replay.rig, config.config));
+  LandingNode node(config, replay, rig, make_chosen_predictor(replay, rig, config.lidar_only));
+  ROS_INFO("ready%s", config.lidar_only ? ", LiDAR alone" : "");
+  node.run();
+}
+
+int run_node() {
+  try {
+    run();
+    return kExitOk;
+  } catch (const ConfigError& e) {
+    ROS_FATAL("%s", e.what());
+    return kExitUsage;
+  } catch (const std::exception& e) {
+    ROS_FATAL("%s", e.what());
+    return kExitFailure;
+  }
+}
+
+}  // namespace
+}  // namespace alight
+
+int main(int argc, char** argv) {
+  alight::restart_with_short_spin(argv);
+  ros::init(argc, argv, "alight");
+  return alight::run_node();
+}

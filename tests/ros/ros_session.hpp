@@ -1,0 +1,59 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <ros/callback_queue.h>
+#include <ros/init.h>
+#include <sys/types.h>
+
+namespace alight::test {
+
+/// A program in a process group of its own, ended with this object. What it says goes to a file.
+class Program {
+ public:
+  Program(const std::vector<std::string>& command, std::filesystem::path log);
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program();
+
+  bool running();
+  /// Waits for the end. @returns the exit code, -1 if it had to be killed after `timeout_s`
+  int wait(double timeout_s);
+  std::string said() const;
+
+ private:
+  pid_t pid_ = -1;
+  int exit_code_ = -1;
+  std::filesystem::path log_;
+};
+
+/// Whether a ROS master and rosbag's player are installed.
+bool ros_is_installed();
+
+/// A ROS master of its own on a free loopback port; this process becomes a node of it.
+class RosSession {
+ public:
+  explicit RosSession(const std::filesystem::path& folder);
+  ~RosSession();
+  RosSession(const RosSession&) = delete;
+  RosSession& operator=(const RosSession&) = delete;
+
+ private:
+  Program master_;
+};
+
+/// Waits for a condition, serving ROS's callbacks. @returns whether it came true
+template <class Condition>
+bool wait_for(const Condition& condition, double timeout_s) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+  }
+  return true;
+}
+
+}  // namespace alight::test
