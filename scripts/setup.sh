@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what Alight needs from Debian 12's package archive. Safe to run again; needs root or sudo.
 #   scripts/setup.sh          what the build and the tests need
-#   scripts/setup.sh --full   and what the comparisons with LibTorch's Python side need (skipped without it)
+#   scripts/setup.sh --full   and what the comparisons with LibTorch's Python side and the test in a browser need (else
+#                             skipped)
 set -euo pipefail
 
 packages=(
@@ -9,13 +10,13 @@ packages=(
   clang-14 lld-14 libomp-14-dev clang-format-14 cmake ninja-build ccache git ca-certificates pkg-config
   # libraries
   libtorch-dev libgloo-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libcli11-dev
-  nlohmann-json3-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
+  nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
   # ROS 1 logs
   librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag python3-venv
 )
-full_packages=(python3-torch python3-yaml python3-numpy python3-opencv)
+full_packages=(python3-torch python3-yaml python3-numpy python3-opencv chromium)
 
 case "${1:-}" in
   "") ;;

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include <arpa/inet.h>
-#include <httplib.h>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -16,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "infer/onboard/steady_time.hpp"
+#include "infer/web/http_server.hpp"
 #include "tests/web/reports.hpp"
 
 namespace alight {
