@@ -259,6 +259,11 @@ TEST_F(GroundStationTest, AViewerWhoWaitsGetsTheNextResult) {
   std::thread engine([this] {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     station_->on_frame(reports::with_depth(2));
+    // What meets a locked door goes with the next message.
+    for (int i = 0; i < 20; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      station_->on_message(AttitudeSample{});
+    }
   });
   auto answer = client().Get("/state?after=1");
   engine.join();
