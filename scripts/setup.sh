@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what Alight needs from Debian 12's package archive. Safe to run again; needs root or sudo.
 #   scripts/setup.sh          what the build and the tests need
-#   scripts/setup.sh --full   and what the comparisons with LibTorch's Python side and the ROS node's test need
-#                             (skipped without it)
+#   scripts/setup.sh --full   and what the comparisons with LibTorch's Python side, the ROS node's test and the test in a
+#                             browser need (else skipped)
 set -euo pipefail
 
 packages=(
@@ -18,7 +18,7 @@ packages=(
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag python3-venv
 )
-full_packages=(python3-torch python3-yaml python3-numpy python3-opencv
+full_packages=(python3-torch python3-yaml python3-numpy python3-opencv chromium
                python3-roslaunch python3-rosmaster rosout)  # a ROS 1 master; python3-rosbag plays
 
 case "${1:-}" in

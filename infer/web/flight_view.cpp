@@ -1,6 +1,7 @@
 #include "infer/web/flight_view.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace alight {
@@ -8,6 +9,8 @@ namespace {
 
 constexpr std::size_t kShownFrames = 8;       // a viewer may be so many frames late with its pictures
 constexpr std::size_t kHistoryLength = 1200;  // a minute at 20 Hz
+
+constexpr std::chrono::milliseconds kLookAgain{20};
 
 // In the order of LogMessage.
 constexpr const char* kSensors[] = {"image", "lidar", "attitude", "position", "height"};
@@ -23,27 +26,38 @@ FlightView::FlightView(const FrameStyle& style, double max_rate_hz)
 
 void FlightView::add(const LogMessage& message) {
   const std::int64_t t_ns = std::visit([](const auto& any) { return any.t_ns; }, message);
-  const SteadyTime now = steady_now();
-  const std::lock_guard lock(mutex_);
-  meters_[message.index()].add(t_ns, now);
+  arrivals_.push_back({message.index(), t_ns, steady_now()});
+  hand_over();
 }
 
 void FlightView::add(const FrameReport& report) {
-  auto latest = std::make_shared<const FrameReport>(report);
-  const DepthResult& depth = report.depth;
-  HistorySample sample{0, depth.t_ns, depth.source, depth.accumulation_s, depth.stereo, depth.holdout};
-  const SteadyTime now = steady_now();
-  bool due = false;
+  results_to_come_.push_back({std::make_shared<const FrameReport>(report), steady_now()});
+  hand_over();
+}
+
+void FlightView::hand_over() {
+  std::vector<std::shared_ptr<const FrameReport>> unused;  // freed after the lock
   {
-    const std::lock_guard lock(mutex_);
-    sample.number = ++results_;
-    latest_.swap(latest);
-    latest_at_ = now;
-    due = now >= next_show_;
-    history_.push_back(sample);
-    if (history_.size() > kHistoryLength) history_.pop_front();
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return;
+    for (const Arrival& arrival : arrivals_) meters_[arrival.sensor].add(arrival.t_ns, arrival.at);
+    for (Result& result : results_to_come_) take(std::move(result));
+    const auto shown = std::partition(retired_.begin(), retired_.end(),
+                                      [](const auto& report) { return report.use_count() > 1; });
+    unused.assign(std::make_move_iterator(shown), std::make_move_iterator(retired_.end()));
+    retired_.erase(shown, retired_.end());
   }
-  if (due) changed_.notify_all();
+  arrivals_.clear();
+  results_to_come_.clear();
+}
+
+void FlightView::take(Result result) {
+  const DepthResult& depth = result.report->depth;
+  history_.push_back(
+      {++results_, depth.t_ns, depth.source, depth.accumulation_s, depth.stereo, depth.holdout});
+  if (history_.size() > kHistoryLength) history_.pop_front();
+  if (latest_.report) retired_.push_back(std::move(latest_.report));
+  latest_ = std::move(result);
 }
 
 std::shared_ptr<const ShownFrame> FlightView::wait(std::int64_t after, std::chrono::milliseconds timeout) {
@@ -57,13 +71,14 @@ std::shared_ptr<const ShownFrame> FlightView::wait(std::int64_t after, std::chro
     if (newer && now >= next_show_) return show_latest();
     if (shown_number() > after) return shown_.back();
     if (now >= deadline) break;
-    changed_.wait_until(lock, newer ? std::min(next_show_, deadline) : deadline);
+    // Results come without a call, see above.
+    changed_.wait_until(lock, std::min(newer ? next_show_ : now + kLookAgain, deadline));
   }
   return shown_.empty() ? nullptr : shown_.back();
 }
 
 std::shared_ptr<const ShownFrame> FlightView::show_latest() {
-  shown_.push_back(std::make_shared<ShownFrame>(results_, latest_at_, latest_, style_));
+  shown_.push_back(std::make_shared<ShownFrame>(results_, latest_.at, latest_.report, style_));
   if (shown_.size() > kShownFrames) shown_.pop_front();
   next_show_ = steady_now() + period_;
   changed_.notify_all();

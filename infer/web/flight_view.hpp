@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -34,13 +35,18 @@ struct SensorStatus {
   std::optional<double> age_s;
 };
 
-/// What viewers see of a flight: the latest result, the history of the scores, the sensors' rates. The engine's thread
-/// puts things in and never waits for more than the copying of a few pointers; viewers' threads take them out.
+/// What viewers see of a flight: the latest result, the history of the scores, the sensors' rates.
+///
+/// The engine's thread puts things in, and must not wait for viewers: their threads have the lowest priority, and one
+/// that holds a lock may not run for a tenth of a second. So add() only tries the lock; what it cannot hand over goes
+/// with the next message. It wakes nobody (a condition variable makes the waker wait for those woken before), and images
+/// are freed on the engine's thread, out of reach of a viewer that stops inside the allocator.
 class FlightView {
  public:
   /// @param max_rate_hz a new frame is chosen for showing at most so often, however many viewers ask
   FlightView(const FrameStyle& style, double max_rate_hz);
 
+  /// Both from one thread, the engine's.
   void add(const LogMessage& message);
   void add(const FrameReport& report);
 
@@ -56,18 +62,34 @@ class FlightView {
   void close();
 
  private:
-  // Both with the mutex held.
+  struct Arrival {
+    std::size_t sensor = 0;
+    std::int64_t t_ns = 0;
+    SteadyTime at;
+  };
+  struct Result {
+    std::shared_ptr<const FrameReport> report;
+    SteadyTime at;
+  };
+
+  void hand_over();
+  // With the mutex held.
+  void take(Result result);
   std::shared_ptr<const ShownFrame> show_latest();
   std::int64_t shown_number() const { return shown_.empty() ? 0 : shown_.back()->number(); }
 
   FrameStyle style_;
   std::chrono::steady_clock::duration period_;
+  // The engine's thread alone: what is not handed over yet.
+  std::vector<Arrival> arrivals_;
+  std::vector<Result> results_to_come_;
+
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool closed_ = false;
   std::int64_t results_ = 0;
-  std::shared_ptr<const FrameReport> latest_;  // result number results_
-  SteadyTime latest_at_;
+  Result latest_;                                            // number results_
+  std::vector<std::shared_ptr<const FrameReport>> retired_;  // once latest_; perhaps still shown
   SteadyTime next_show_;
   std::deque<std::shared_ptr<const ShownFrame>> shown_;  // the last few
   std::deque<HistorySample> history_;

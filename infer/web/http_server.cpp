@@ -108,6 +108,18 @@ class LimitedStream : public httplib::Stream {
   SteadyTime deadline_;
 };
 
+/// Nothing more will be sent. What the client still sends is taken in for a moment: a socket that is closed with bytes
+/// unread resets the connection, and the client would lose the answer.
+void part(socket_t socket) {
+  constexpr int kPatience_ms = 100;
+  std::array<char, 4096> unwanted{};
+  const SteadyTime end = steady_now() + std::chrono::milliseconds(kPatience_ms);
+  shutdown(socket, SHUT_WR);
+  while (wait_for(socket, POLLIN, static_cast<int>(milliseconds(steady_now(), end)))) {
+    if (steady_now() >= end || recv(socket, unwanted.data(), unwanted.size(), 0) <= 0) return;
+  }
+}
+
 std::string cannot_listen(const ListenAddress& address, int error) {
   const std::string begin = "web address " + address.text() + ": ";
   switch (error) {
@@ -177,11 +189,12 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
   bool served = false;
   if (enter(socket)) {
     served = serve(socket);
+    part(socket);
     leave(socket);
   } else {
     static_cast<void>(send(socket, kBusy, sizeof kBusy - 1, MSG_NOSIGNAL | MSG_DONTWAIT));
+    part(socket);
   }
-  shutdown(socket, SHUT_RDWR);
   close(socket);
   return served;
 }
@@ -203,7 +216,8 @@ bool HttpServer::serve(socket_t socket) {
   bool last = false;
   while (!last && stream.next_request()) {
     bool closed = false;
-    // A body that a refused request leaves unread would pass for the next request.
+    // After what is no request, or a refused one whose body was left unread, nothing tells where the next begins.
+    last = true;
     const auto note = [&last](httplib::Request& request) {
       last = request.method != "GET" && request.method != "HEAD";
       if (last) request.headers.emplace("Connection", "close");

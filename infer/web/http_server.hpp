@@ -11,6 +11,8 @@
 
 #include "infer/web/listen_address.hpp"
 
+#undef _res  // a macro of <resolv.h>, and a name in Eigen's templates
+
 namespace alight {
 
 /// What a client may ask of a server.

@@ -67,7 +67,7 @@ TEST(Roc, TheStandardErrorIsThatOfDrawingFlights) {
   const std::vector<ScoredCase> right{{1, true}, {0, false}};
   const std::vector<ScoredCase> wrong{{0, true}, {1, false}};
   EXPECT_EQ(area_standard_error({{"a", right}}), std::nullopt);
-  EXPECT_THAT(area_standard_error({{"a", right}, {"b", right}}), Optional(DoubleEq(0)));
+  EXPECT_THAT(area_standard_error({{"a", right}, {"b", right}}), Optional(DoubleNear(0, 1e-12)));
   // Areas 1, 0.5, 0 with chances 1/4, 1/2, 1/4 (ties count half): standard deviation sqrt(1/8).
   const auto error = area_standard_error({{"a", right}, {"b", wrong}}, 4000);
   ASSERT_TRUE(error);

@@ -39,6 +39,11 @@ TEST(FlightView, WaitReturnsAsSoonAsAResultComes) {
   std::thread engine([&view] {
     std::this_thread::sleep_for(milliseconds(30));
     view.add(reports::with_depth(2));
+    // What meets a locked door goes with the next message.
+    for (int i = 0; i < 20; ++i) {
+      std::this_thread::sleep_for(milliseconds(5));
+      view.add(LogMessage(AttitudeSample{}));
+    }
   });
   const SteadyTime begin = steady_now();
   EXPECT_EQ(view.wait(1, milliseconds(20000))->number(), 2);
@@ -81,6 +86,23 @@ TEST(FlightView, HistoryIsWhatTheViewerHasNotSeen) {
   EXPECT_EQ(samples.front().t_ns, 5);
   EXPECT_EQ(samples.back().number, 9);
   EXPECT_EQ(*samples.back().stereo.sim_pred, 0.7);
+}
+
+TEST(FlightView, ImagesAreFreedByTheEngineOnceNobodyShowsThem) {
+  FlightView view = make_view(1e6);
+  FrameReport report = reports::with_depth(1);
+  const auto users = [pixels = report.depth.left.u] { return pixels->refcount; };
+  view.add(report);
+  auto shown = view.wait(0, milliseconds(1000));
+  for (int i = 2; i <= 20; ++i) {
+    view.add(reports::with_depth(i));
+    view.wait(i - 1, milliseconds(1000));
+  }
+  EXPECT_EQ(users(), 2);  // a viewer is slow: the report and the test
+  shown.reset();
+  EXPECT_EQ(users(), 2);  // not yet: the viewer does not free it
+  view.add(reports::with_depth(21));
+  EXPECT_EQ(users(), 1);
 }
 
 TEST(FlightView, HistoryIsBounded) {
