@@ -51,7 +51,8 @@ std::map<std::int64_t, Json> replay_lines(const fs::path& bag, const fs::path& o
   std::ifstream file(output / "results.jsonl");
   for (std::string line; std::getline(file, line);) {
     Json json = comparable(line);
-    lines[json.at("t_ns")] = std::move(json);
+    const std::int64_t t_ns = json.at("t_ns");
+    lines[t_ns] = std::move(json);
   }
   return lines;
 }
