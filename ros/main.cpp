@@ -3,6 +3,7 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/node_handle.h>
 
 #include "cli/command_line.hpp"
 #include "configs/errors.hpp"
@@ -13,8 +14,8 @@
 namespace alight {
 namespace {
 
-void run() {
-  const NodeConfig config = read_parameters(ros::NodeHandle("~"));
+void run(const ros::NodeHandle& node_handle) {
+  const NodeConfig config = read_parameters(node_handle);
   const ReplayConfig replay = resolve(config);
   const Rig rig = load_rig(find_rig_file(replay.rig, config.config));
   LandingNode node(config, replay, rig, make_chosen_predictor(replay, rig, config.lidar_only));
@@ -23,8 +24,10 @@ void run() {
 }
 
 int run_node() {
+  // With its last node handle ROS shuts down, logging included.
+  const ros::NodeHandle node_handle("~");
   try {
-    run();
+    run(node_handle);
     return kExitOk;
   } catch (const ConfigError& e) {
     ROS_FATAL("%s", e.what());

@@ -140,7 +140,7 @@ sensor_msgs::PointCloud2 points(const FrameReport& frame, const PinholeIntrinsic
   std::vector<CloudPoint> cloud;
   const cv::Mat& depth_m = frame.depth.depth_m;
   cv::Mat bgr = frame.depth.left;
-  if (bgr.channels() == 1) cv::cvtColor(bgr, bgr, cv::COLOR_GRAY2BGR);
+  if (!bgr.empty() && bgr.channels() == 1) cv::cvtColor(bgr, bgr, cv::COLOR_GRAY2BGR);
   for (int v = 0; v < depth_m.rows; v += step_px) {
     for (int u = 0; u < depth_m.cols; u += step_px) {
       const float depth = depth_m.at<float>(v, u);

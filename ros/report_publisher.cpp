@@ -8,7 +8,8 @@
 namespace alight {
 namespace {
 
-constexpr std::uint32_t kQueuedImages = 5;
+// Images that waited for the same LiDAR packet become final together (engine.max_open_images).
+constexpr std::uint32_t kQueuedImages = 30;
 constexpr std::uint32_t kQueuedOthers = 100;
 
 }  // namespace
