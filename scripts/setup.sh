@@ -9,7 +9,7 @@ packages=(
   clang-14 lld-14 libomp-14-dev clang-format-14 cmake ninja-build ccache git ca-certificates pkg-config
   # libraries
   libtorch-dev libgloo-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libcli11-dev
-  nlohmann-json3-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
+  nlohmann-json3-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev libboost-dev
   # ROS 1 logs
   librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev
   # tests and benchmarks
