@@ -36,7 +36,7 @@ Json site_json(const FrameReport& frame) {
   return json;
 }
 
-Json health_json(const HealthReport& health) {
+Json to_json(const HealthReport& health) {
   Json json;
   json["state"] = name(health.state);
   json["findings"] = Json::array();
@@ -88,7 +88,7 @@ std::string to_json_line(const FrameReport& frame, const cv::Rect& crop, bool wi
   json["site"] = site_json(frame);
   json["site_reason"] = frame.site_reason();
   json["wander"] = frame.decision.wander;
-  json["health"] = health_json(frame.health);
+  json["health"] = to_json(frame.health);
   if (with_timings) {
     Json stages = Json::object();
     for (const auto& [stage, ms] : depth.stages_ms) stages[stage] = std::round(ms * 1e3) / 1e3;
@@ -96,6 +96,8 @@ std::string to_json_line(const FrameReport& frame, const cv::Rect& crop, bool wi
   }
   return json.dump();
 }
+
+std::string health_json(const HealthReport& health) { return to_json(health).dump(); }
 
 ResultWriter::ResultWriter(const std::filesystem::path& path, const cv::Rect& crop, bool with_timings)
     : path_(path), stream_(path, std::ios::binary), crop_(crop), with_timings_(with_timings) {

@@ -20,6 +20,9 @@ namespace alight {
 /// the only part that differs from run to run.
 std::string to_json_line(const FrameReport& frame, const cv::Rect& crop, bool with_timings);
 
+/// What a line holds under `health`.
+std::string health_json(const HealthReport& health);
+
 /// results.jsonl, line by line.
 class ResultWriter {
  public:

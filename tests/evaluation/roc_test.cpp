@@ -9,6 +9,7 @@ namespace alight {
 namespace {
 
 using ::testing::DoubleEq;
+using ::testing::DoubleNear;
 using ::testing::Optional;
 
 constexpr double kNoEvidence = -std::numeric_limits<double>::infinity();

@@ -109,7 +109,8 @@ TEST(HealthMonitor, ABlackLeftEyeLeavesFramesWithoutImages) {
   auto messages = flight();
   for (LogMessage& message : messages) {
     auto* frame = std::get_if<StereoFrame>(&message);
-    if (frame != nullptr && frame->t_ns > kStart_ns + to_nanoseconds(1.0)) frame->left = frame->left * 0.01;
+    if (frame != nullptr && frame->t_ns > kStart_ns + to_nanoseconds(1.0))
+      frame->left = cv::Mat(frame->left * 0.01);
   }
   const Outcome outcome = judge(messages);
   EXPECT_EQ(describe(outcome.report), "left camera black");
