@@ -183,7 +183,7 @@ Messages shortened(const Messages& flight, std::int64_t fault_ns) {
 
 std::shared_ptr<DepthPredictor> shipped_network(const Rig& rig) {
   return make_network_predictor(fs::path(ALIGHT_SOURCE_DIR) / "models" / "shipped" / "default.pt",
-                                engine_rig({}, rig), 0);
+                                engine_rig({}, rig), {});
 }
 
 TEST_F(Faults, AHealthyFlightWithTheShippedNetwork) {
