@@ -7,6 +7,8 @@
 #include "infer/benchmark.hpp"
 #include "infer/chosen_predictor.hpp"
 #include "infer/network_benchmark.hpp"
+#include "infer/recorder/explanation.hpp"
+#include "infer/recorder/flight_recorder.hpp"
 #include "infer/replay.hpp"
 #include "infer/web/ground_station.hpp"
 
@@ -29,6 +31,8 @@ struct Options {
   std::optional<std::string> web;
   std::optional<std::string> web_token;
   std::optional<std::string> autopilot;
+  std::optional<std::string> record;
+  std::optional<std::string> explain;
   bool automatic = false;
 };
 
@@ -69,6 +73,14 @@ void add_options(CLI::App& app, Options& options) {
          "--autopilot", options.autopilot,
          "Send landing sites there by MAVLink, such as udp:127.0.0.1:14550; in place of the configuration's")
       ->needs(realtime);
+  auto* record =
+      app.add_option("--record", options.record,
+                     "Keep a crash-safe record of the flight in this folder; with --explain: read it");
+  app.add_option("--explain", options.explain,
+                 "Say why a site was chosen or not at this time, in seconds of the record or nanoseconds, "
+                 "and draw it to "
+                 "--output (PNG)")
+      ->needs(record);
   app.add_flag("--automatic", options.automatic,
                "Begin in automatic mode; else a person flies, and no landing site is sent")
       ->needs(realtime);
@@ -81,7 +93,8 @@ void add_options(CLI::App& app, Options& options) {
       "  alight-infer --config configs/infer/default.yaml --checkpoint runs/demo/best.pt --log flight.bag "
       "--output out/flight\n"
       "  alight-infer --log flight.bag --output out/lidar --lidar-only\n"
-      "  alight-infer --log flight.bag --realtime --web :8080\n"
+      "  alight-infer --log flight.bag --realtime --web :8080 --record out/record\n"
+      "  alight-infer --record out/record --explain 12.5 --output why.png\n"
       "  alight-infer --checkpoint runs/demo/best.pt --benchmark\n"
       "  alight-infer --config configs/infer/default.yaml --set engine.history_s=0 --print-config\n"
       "Writes results.jsonl (a line an image), overlay/*.png and method.png to the output folder.");
@@ -131,6 +144,13 @@ ReplaySummary run_replay(const Options& options, const ReplayConfig& config, con
   ModeSwitch mode(options.automatic ? FlightMode::kAutomatic : FlightMode::kManual);
   AutopilotLink autopilot(config.autopilot, camera.rig(), mode);
   std::vector<FrameSink*> sinks{&autopilot};
+  std::optional<FlightRecorder> recorder;
+  if (options.record) {
+    const cv::Rect crop = camera.crop();
+    recorder.emplace(RecorderConfig{}, *options.record,
+                     RecordedSettings{crop.x, crop.y, config.engine, config.landing});
+    sinks.push_back(&*recorder);
+  }
   std::optional<GroundStation> station;
   if (options.web) {
     GroundStationConfig web;
@@ -148,6 +168,10 @@ ReplaySummary run_replay(const Options& options, const ReplayConfig& config, con
 }
 
 int run(const Options& options) {
+  if (options.explain) {
+    return run_explain(*options.record, *options.explain,
+                       options.output.empty() ? "explanation.png" : options.output);
+  }
   const ReplayConfig config = resolve(options);
   if (print_if_asked(options.config, config)) return kExitOk;
   const bool replaying = !options.benchmark && !options.benchmark_network;

@@ -158,7 +158,13 @@ FrameReport restored(const RecordedResult& result) {
   }
   frame.depth.left = decoded(result.left, size);
   if (frame.depth.left.empty()) frame.depth.left = cv::Mat::zeros(size, CV_8UC3);
-  if (result.depth != nullptr) frame.depth.depth_m = decode_depth(decoded(result.depth, size));
+  if (result.depth != nullptr) {
+    frame.depth.depth_m = decode_depth(decoded(result.depth, size));
+    const PixelSource known =
+        frame.depth.source == DepthSource::kFallback ? PixelSource::kInterpolated : PixelSource::kPredicted;
+    frame.depth.pixel_source = cv::Mat::zeros(size, CV_8UC1);
+    frame.depth.pixel_source.setTo(static_cast<int>(known), frame.depth.depth_m > 0);
+  }
   if (const cv::Mat safe = decoded(result.safe, size); !safe.empty()) {
     frame.selection.emplace();
     frame.selection->safe = safe == 255;
