@@ -181,7 +181,7 @@ bool ImageTask::advance(bool lidar_silent) {
       }
     }
     if (full()) {
-      fall_back(predictor_ != nullptr ? verdicts() : "LiDAR alone, no network asked");
+      fall_back(predictor_ != nullptr ? verdicts() : "LiDAR alone");
     } else if (const int packets = packets_for_next_step(); packets > 0) {
       feed(packets);
     } else {
