@@ -45,7 +45,9 @@ void bind(Binder& b, LidarHealthConfig& c);
 struct PoseHealthConfig {
   double max_position_step_m = 0.5;  ///< off the place that the speed so far leads to
   double max_turn_deg = 6;           ///< between two attitudes that are no more than 20 ms apart
-  double frozen_s = 0.2;  ///< the same value to the last bit for so long, from a sensor that used to vary
+  /// The same value to the last bit for so long, from a sensor that used to vary. A receiver whose fixes are repeated
+  /// between two of them needs more than their period.
+  double frozen_s = 0.2;
 };
 void bind(Binder& b, PoseHealthConfig& c);
 

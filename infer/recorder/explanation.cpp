@@ -42,6 +42,7 @@ struct RecordedResult {
   RecordedSettings settings;
   Json frame;
   std::int64_t t_ns = 0;
+  Json pictured;                 // the result of the pictures: its site belongs into them
   const Record* left = nullptr;  // the latest pictures until then
   const Record* depth = nullptr;
   const Record* safe = nullptr;
@@ -64,12 +65,14 @@ RecordedResult find_result(const std::vector<Record>& records, const fs::path& f
   result.frame = Json::parse(frame->content);
   result.t_ns = frame->t_ns;
   std::int64_t pictures_ns = 0;
+  result.pictured = result.frame;
   for (const Record& record : records) {
     if (record.kind == RecordKind::kLeft && record.t_ns <= frame->t_ns)
       pictures_ns = std::max(pictures_ns, record.t_ns);
   }
   for (const Record& record : records) {
-    if (record.t_ns != pictures_ns) continue;
+    if (record.kind == RecordKind::kSettings || record.t_ns != pictures_ns) continue;
+    if (record.kind == RecordKind::kFrame) result.pictured = Json::parse(record.content);
     if (record.kind == RecordKind::kLeft) result.left = &record;
     if (record.kind == RecordKind::kDepth) result.depth = &record;
     if (record.kind == RecordKind::kSafe) result.safe = &record;
@@ -146,9 +149,9 @@ cv::Mat decoded(const Record* record, cv::Size size) {
   return image;
 }
 
-/// The frame as far as it was recorded, for the panels of a replay.
+/// The pictured frame as far as it was recorded, for the panels of a replay.
 FrameReport restored(const RecordedResult& result) {
-  const Json& json = result.frame;
+  const Json& json = result.pictured;
   const cv::Size size(json.at("crop").at("width").get<int>(), json.at("crop").at("height").get<int>());
   FrameReport frame;
   frame.depth.t_ns = result.t_ns;

@@ -20,13 +20,13 @@ sim::SimConfig flight_config() {
   sim::FlightConfig& flight = config.flights.front();
   flight.seed = 9;
   flight.world.look = sim::Look::kVillage;
-  flight.world.seed = 21;
+  flight.world.seed = 22;
   flight.world.size_m = 90;
   flight.plan.kind = sim::PlanKind::kStraight;
   flight.plan.start_height_m = 18;
   flight.plan.speed_mps = 3;
   flight.plan.yaw_rate_deg_per_s = 10;
-  flight.plan.duration_s = 5;
+  flight.plan.duration_s = 6;
   return config;
 }
 

@@ -386,5 +386,46 @@ TEST(DepthEngine, RefusesAWrongSetUp) {
   EXPECT_THROW(DepthEngine(config_of(false), blind, nullptr), ConfigError);
 }
 
+/// After half of the flight its LiDAR turns out to be wrong: nothing older goes into later depth.
+TEST(DepthEngine, ForgottenLidarIsNotUsedAnyMore) {
+  LevelWorld world(kHeight_m);
+  DepthEngine engine(config_of(false), fakes::small_rig(), nullptr);
+  const std::int64_t forget_ns = kStart_ns + to_nanoseconds(1.55);
+  bool forgotten = false;
+  std::vector<DepthResult> results;
+  for (const LogMessage& message : fakes::flight(world, {3.5})) {
+    const std::int64_t t_ns = std::visit([](const auto& typed) { return typed.t_ns; }, message);
+    if (!forgotten && t_ns >= forget_ns) {
+      engine.forget_lidar("wrong");
+      EXPECT_EQ(engine.points_held(), 0U);
+      forgotten = true;
+    }
+    engine.add(message);
+    for (DepthResult& result : engine.take_results()) results.push_back(std::move(result));
+  }
+  for (const DepthResult& result : results) {
+    if (result.t_ns < forget_ns) continue;
+    // The next packet ends at 1.6 s, a whole second of new LiDAR at 2.6 s: images wait for it.
+    const double since_s = to_seconds(result.t_ns - forget_ns);
+    EXPECT_EQ(result.source, DepthSource::kFallback) << since_s << " " << result.reason;
+    EXPECT_LE(result.accumulation_s, since_s + 1.05);
+  }
+  EXPECT_GT(results.size(), 40U);
+}
+
+TEST(DepthEngine, AFrameWithoutALeftImageIsWorkedOnByTheLidarAlone) {
+  LevelWorld world(kHeight_m);
+  std::vector<LogMessage> messages = fakes::flight(world, {2.0});
+  for (LogMessage& message : messages) {
+    if (auto* frame = std::get_if<StereoFrame>(&message)) frame->left = frame->right = cv::Mat();
+  }
+  auto net = std::make_shared<FakePredictor>([](int) { return kHeight_m; });
+  const Outcome out = run(config_of(false), messages, net);
+  EXPECT_EQ(net->encoded, 0);
+  EXPECT_EQ(static_cast<std::int64_t>(out.results.size()), images_in(messages));
+  EXPECT_EQ(out.results.back().source, DepthSource::kFallback);
+  EXPECT_EQ(out.results.back().left.size(), cv::Size(160, 144));
+}
+
 }  // namespace
 }  // namespace alight

@@ -1,5 +1,7 @@
 #include "infer/landing_pipeline.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/infer/fakes.hpp"
@@ -58,6 +60,52 @@ TEST(LandingPipeline, NoTrustedDepthNoSiteAndWanderAfterFiveSeconds) {
     EXPECT_EQ(frame.decision.wander,
               frame.depth.t_ns - frames.front().depth.t_ns > 5 * kNanosecondsPerSecond);
   }
+}
+
+/// The camera falls silent after a second: every LiDAR packet makes a frame, and the site stays accepted.
+TEST(LandingPipeline, WithoutImagesTheLidarGoesOnAlone) {
+  fakes::LevelWorld world(kHeight_m);
+  std::vector<LogMessage> messages = fakes::flight(world, {3.0});
+  const std::int64_t lost_ns = kStart_ns + to_nanoseconds(1.5);
+  messages.erase(std::remove_if(messages.begin(), messages.end(),
+                                [&](const LogMessage& message) {
+                                  const auto* frame = std::get_if<StereoFrame>(&message);
+                                  return frame != nullptr && frame->t_ns > lost_ns;
+                                }),
+                 messages.end());
+  const auto frames = fly(messages, std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
+  int blind = 0;
+  for (const FrameReport& frame : frames) {
+    if (frame.depth.t_ns <= lost_ns) continue;
+    ++blind;
+    EXPECT_EQ(frame.depth.source, DepthSource::kFallback) << frame.depth.reason;
+    EXPECT_EQ(frame.depth.predictions, 0);
+    EXPECT_EQ(frame.health.state, HealthState::kDegraded);
+    ASSERT_TRUE(frame.decision.site) << frame.site_reason();
+    EXPECT_TRUE(frame.decision.site->accepted);
+  }
+  EXPECT_GE(blind, 10);
+}
+
+TEST(LandingPipeline, AFailedHealthVetoesTheSiteAndSaysSo) {
+  fakes::LevelWorld world(kHeight_m);
+  std::vector<LogMessage> messages = fakes::flight(world, {2.5});
+  const std::int64_t jump_ns = kStart_ns + to_nanoseconds(1.5);
+  for (LogMessage& message : messages) {
+    auto* sample = std::get_if<PositionSample>(&message);
+    if (sample != nullptr && sample->t_ns >= jump_ns) sample->altitude_m += 5;
+  }
+  const auto frames = fly(messages, std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
+  int vetoed = 0;
+  for (const FrameReport& frame : frames) {
+    if (frame.health.state != HealthState::kFailed) continue;
+    ++vetoed;
+    EXPECT_FALSE(frame.decision.site);
+    if (frame.depth.depth_m.empty()) continue;
+    EXPECT_EQ(frame.site_reason().rfind("sensors failed: ", 0), 0U) << frame.site_reason();
+    EXPECT_NE(frame.site_reason().find("position jump"), std::string::npos) << frame.site_reason();
+  }
+  EXPECT_GT(vetoed, 15);  // 20 Hz for a second
 }
 
 TEST(InCameraImage, ALevelCircleIsSeenWhereItsCentreIs) {
