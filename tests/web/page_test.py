@@ -53,16 +53,28 @@ def text(browser, name):
     return browser.value(f"document.getElementById('{name}').textContent")
 
 
-def shows_live_numbers(browser, url):
-    """What the page shows of what does not change in a hover is what the state says."""
-    frame = state(url)["frame"]
+def compare_live_numbers(browser, frame):
+    """Raises unless the page shows what does not change in a hover as the state said it."""
     check(text(browser, "landing") == "accepted" == frame["landing"]["text"], text(browser, "landing"))
-    check(text(browser, "source") == frame["result"]["source"], text(browser, "source"))
+    check(text(browser, "source") == frame["result"]["source"] == "predicted", text(browser, "source"))
     for name in ("sim", "sim_d", "sim_pred"):
-        shown = float(text(browser, name))
-        check(abs(shown - frame["result"][name]) < 0.02, f"{name}: {shown} for {frame['result'][name]}")
+        shown = text(browser, name)
+        check(abs(float(shown) - frame["result"][name]) < 0.02, f"{name}: {shown} for {frame['result'][name]}")
     shown = float(text(browser, "radius").split()[0])
     check(abs(shown - frame["result"]["site"]["radius_m"]) < 0.2, f"radius: {shown}")
+
+
+def shows_live_numbers(browser, url):
+    """A busy machine drops messages, and the engine interpolates a few images: then the network has no numbers to show."""
+    deadline = time.monotonic() + 60
+    while True:
+        try:
+            compare_live_numbers(browser, state(url)["frame"])
+            break
+        except (AssertionError, ValueError, TypeError):
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(0.2)
     rates = browser.value("[...document.querySelectorAll('#sensors tr')].map(row => row.innerText)")
     check(len(rates) == 5 and "100.0 Hz" in rates[2], f"sensors: {rates}")
     first = browser.value("+document.documentElement.dataset.frame")
