@@ -56,7 +56,7 @@ def text(browser, name):
 def compare_live_numbers(browser, frame):
     """Raises unless the page shows what does not change in a hover as the state said it."""
     check(text(browser, "landing") == "accepted" == frame["landing"]["text"], text(browser, "landing"))
-    check(text(browser, "source") == frame["result"]["source"] == "predicted", text(browser, "source"))
+    check(text(browser, "source") == frame["result"]["source"] == "lidar", text(browser, "source"))
     for name in ("sim", "sim_d", "sim_pred"):
         shown = text(browser, name)
         check(abs(float(shown) - frame["result"][name]) < 0.02, f"{name}: {shown} for {frame['result'][name]}")
