@@ -154,9 +154,26 @@ TEST_F(Faults, AHealthyFlightHasNoFindingAndAcceptsSafeSites) {
   EXPECT_EQ(outcome.depth_percent(), 100);
 }
 
+/// From a second and a half before the fault on, and one in every so many images.
+Messages shortened(const Messages& flight, std::int64_t fault_ns, int image_step) {
+  Messages few;
+  int images = 0;
+  for (const TimedMessage& timed : flight) {
+    const bool image = std::holds_alternative<StereoFrame>(timed.message);
+    const bool early = timed.receive_ns < fault_ns - to_nanoseconds(image ? 0.7 : 1.6);
+    if (early || (image && images++ % image_step != 0)) continue;
+    few.push_back(timed);
+  }
+  return few;
+}
+
 TEST_P(Faults, LidarAlone) {
   const Fault& fault = fault_of(GetParam());
-  const Outcome outcome = fly(fault.inject(truth_->messages(), fault_ns()), &fault, nullptr);
+  Messages flight = fault.inject(truth_->messages(), fault_ns());
+#ifdef ALIGHT_FAULTS_SHORT
+  flight = shortened(flight, fault_ns(), 1);
+#endif
+  const Outcome outcome = fly(flight, &fault, nullptr);
   row("LiDAR alone", fault.name, outcome);
   expect_noticed(fault, lidar_only_state(fault), outcome);
 }
@@ -172,18 +189,7 @@ bool reaches_the_network(const Fault& fault) {
 
 bool thorough() { return std::getenv("ALIGHT_FAULTS_THOROUGH") != nullptr; }
 
-/// From a second and a half before the fault on, and every other image unless all are asked for.
-Messages shortened(const Messages& flight, std::int64_t fault_ns) {
-  Messages few;
-  int images = 0;
-  for (const TimedMessage& timed : flight) {
-    const bool image = std::holds_alternative<StereoFrame>(timed.message);
-    const bool early = timed.receive_ns < fault_ns - to_nanoseconds(image ? 0.7 : 1.6);
-    if (early || (image && !thorough() && images++ % 2 == 1)) continue;
-    few.push_back(timed);
-  }
-  return few;
-}
+int network_image_step() { return thorough() ? 1 : 2; }
 
 std::shared_ptr<DepthPredictor> shipped_network(const Rig& rig) {
   return make_network_predictor(fs::path(ALIGHT_SOURCE_DIR) / "models" / "shipped" / "default.pt",
@@ -191,8 +197,8 @@ std::shared_ptr<DepthPredictor> shipped_network(const Rig& rig) {
 }
 
 TEST_F(Faults, AHealthyFlightWithTheShippedNetwork) {
-  const Outcome outcome =
-      fly(shortened(truth_->messages(), fault_ns()), nullptr, shipped_network(truth_->rig()));
+  const Outcome outcome = fly(shortened(truth_->messages(), fault_ns(), network_image_step()), nullptr,
+                              shipped_network(truth_->rig()));
   row("network", "none", outcome);
   EXPECT_FALSE(outcome.noticed_s) << outcome.finding.sensor << " " << outcome.finding.reason;
   EXPECT_EQ(outcome.unsafe, 0);
@@ -204,7 +210,8 @@ TEST_P(Faults, ShippedNetwork) {
   if (!thorough() && !reaches_the_network(fault)) {
     GTEST_SKIP() << "flown by scripts/faults.sh (ALIGHT_FAULTS_THOROUGH=1)";
   }
-  const Messages flight = shortened(fault.inject(truth_->messages(), fault_ns()), fault_ns());
+  const Messages flight =
+      shortened(fault.inject(truth_->messages(), fault_ns()), fault_ns(), network_image_step());
   const Outcome outcome = fly(flight, &fault, shipped_network(truth_->rig()));
   row("network", fault.name, outcome);
   expect_noticed(fault, fault.state, outcome);
