@@ -34,6 +34,8 @@ void bind(Binder& b, DepthEngineConfig& c) {
   b.field("max_wait_s", c.max_wait_s, "how late a pose or LiDAR packet may come", between(0, 10));
   b.field("lidar_timeout_s", c.lidar_timeout_s, "without a packet for so long the LiDAR is silent",
           between(0.01, 60));
+  b.choice("newer_image", c.newer_image, {{"finish", NewerImage::kFinish}, {"latest", NewerImage::kLatest}},
+           "an image that waits for LiDAR when a newer one comes: is refined to the end, or ends as it is");
   b.field("max_open_images", c.max_open_images, "images in work at once", between(1, 1000));
   b.field("max_points", c.max_points, "LiDAR points held", at_least(1));
   b.section("image", c.image, "how one image is worked on");
@@ -163,6 +165,7 @@ void DepthEngine::open_images() {
 }
 
 void DepthEngine::open(Entry& entry, const Eigen::Isometry3d& T_world_camera) {
+  if (config_.newer_image == NewerImage::kLatest) pre_empt_before(entry.t_ns);
   if (open_count() >= config_.max_open_images) return give_up(entry, "engine busy with earlier images");
   StageTimes stages_ms;
   PredictorView view;
@@ -187,6 +190,14 @@ void DepthEngine::open(Entry& entry, const Eigen::Isometry3d& T_world_camera) {
     }
   }
   for (const auto& packet : accumulator_.after(entry.t_ns)) entry.task->offer(packet);
+}
+
+void DepthEngine::pre_empt_before(std::int64_t t_ns) {
+  for (Entry& entry : entries_) {
+    if (!entry.task || entry.t_ns >= t_ns) continue;
+    entry.task->close(lidar_silent(), "a newer image came");
+    conclude(entry);
+  }
 }
 
 void DepthEngine::advance_tasks() {

@@ -19,6 +19,12 @@
 
 namespace alight {
 
+/// What a newer image does to one that still waits for LiDAR.
+enum class NewerImage {
+  kFinish,  ///< nothing: every image is refined until it is trusted or its time is up
+  kLatest,  ///< ends it with what there is: all work goes to the newest
+};
+
 /// How messages become depth maps.
 struct DepthEngineConfig {
   int width_px = 352;  ///< centre crop of the rectified images
@@ -29,8 +35,9 @@ struct DepthEngineConfig {
   double max_pose_gap_s = 0.1;   ///< poses further apart are not interpolated between
   double max_wait_s = 0.5;       ///< how late a pose or a LiDAR packet may come
   double lidar_timeout_s = 0.5;  ///< without a packet for so long the LiDAR counts as silent
-  int max_open_images = 24;      ///< images in work at once; more are skipped with a reason
-  int max_points = 2'000'000;    ///< LiDAR points held for the future
+  NewerImage newer_image = NewerImage::kFinish;
+  int max_open_images = 24;    ///< images in work at once; more are skipped with a reason
+  int max_points = 2'000'000;  ///< LiDAR points held for the future
   ImageTaskConfig image;
   HealthConfig health;  ///< LandingPipeline's; the engine itself believes every message
 };
@@ -46,7 +53,8 @@ void bind(Binder& b, DepthEngineConfig& c);
 /// second *already has* a second of LiDAR, and it needs no more than a pose to use it. So packets that ended before the
 /// image are offered first, newest first (`history_s`), then those that arrive. An image then gets its result at once
 /// and stays open only in the first second of a flight or after a LiDAR pause. With history_s = 0 an image waits for the
-/// LiDAR that follows it, as in the paper; max_open_images = 1 makes that the paper's one-image-at-a-time loop.
+/// LiDAR that follows it, as in the paper; max_open_images = 1 makes that the paper's one-image-at-a-time loop. A newer
+/// image leaves older ones to be finished, or ends them (`newer_image`).
 /// `accumulation_s` is the LiDAR time that was fed, wherever it came from.
 ///
 /// Nothing waits for ever: an image or packet without a pose is given up after max_wait_s, an open image after
@@ -97,6 +105,7 @@ class DepthEngine {
   void place(const LidarPacket& packet);
   void open_images();
   void open(Entry& entry, const Eigen::Isometry3d& T_world_camera);
+  void pre_empt_before(std::int64_t t_ns);
   void advance_tasks();
   void forget();
   void give_up(Entry& entry, const std::string& reason);

@@ -23,7 +23,12 @@ enum class DepthSource {
 const char* name(DepthSource source);
 
 /// Values of DepthResult::pixel_source.
-enum class PixelSource : std::uint8_t { kUnknown = 0, kPredicted = 1, kInterpolated = 2 };
+enum class PixelSource : std::uint8_t {
+  kUnknown = 0,
+  kPredicted = 1,     ///< inside the LiDAR's field of view, where its points can contradict
+  kInterpolated = 2,  ///< between LiDAR points; never outside its field of view
+  kPredictedOutsideFov = 3,
+};
 
 /// What the engine knows about one left image.
 struct DepthResult {

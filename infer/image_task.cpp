@@ -129,7 +129,11 @@ void ImageTask::predict() {
   evaluate_stereo();
 }
 
-cv::Mat ImageTask::fov_mask() { return lidar_circle(known_.depth_m, rig_, config_.lidar_half_fov_deg); }
+/// By the points that came, or else by what was predicted: the circle moves with the distance, as the LiDAR is not where
+/// the camera is.
+cv::Mat ImageTask::fov_mask() {
+  return lidar_circle(known_.count() > 0 ? known_.depth_m : prediction_m_, rig_, config_.lidar_half_fov_deg);
+}
 
 void ImageTask::evaluate_stereo() {
   if (!stereo_test_.has_right()) return;
@@ -209,7 +213,8 @@ void ImageTask::accept() {
   const bool image_alone = fed_packets_ == 0;
   result_.depth_m = prediction_m_;
   result_.pixel_source = cv::Mat::zeros(prediction_m_.size(), CV_8UC1);
-  result_.pixel_source.setTo(static_cast<int>(PixelSource::kPredicted), prediction_m_ > 0);
+  result_.pixel_source.setTo(static_cast<int>(PixelSource::kPredictedOutsideFov), prediction_m_ > 0);
+  result_.pixel_source.setTo(static_cast<int>(PixelSource::kPredicted), (prediction_m_ > 0) & fov_mask());
   char text[96];
   std::snprintf(text, sizeof text, "trusted (stereo: %s, LiDAR hold-out: %s)", name(result_.stereo_verdict),
                 name(result_.holdout_verdict));

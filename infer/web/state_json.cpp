@@ -72,7 +72,9 @@ Json depth_json(const DepthResult& depth) {
   const bool known = scale.max_m > 0;
   json["min_m"] = known ? number(scale.min_m) : Json(nullptr);
   json["max_m"] = known ? number(scale.max_m) : Json(nullptr);
-  json["predicted_share"] = number(share_of(depth.pixel_source, PixelSource::kPredicted));
+  const double outside = share_of(depth.pixel_source, PixelSource::kPredictedOutsideFov);
+  json["predicted_share"] = number(share_of(depth.pixel_source, PixelSource::kPredicted) + outside);
+  json["predicted_outside_fov_share"] = number(outside);
   json["interpolated_share"] = number(share_of(depth.pixel_source, PixelSource::kInterpolated));
   json["unknown_share"] = number(share_of(depth.pixel_source, PixelSource::kUnknown));
   json["colours"] = scale_colours();

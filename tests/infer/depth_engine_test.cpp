@@ -96,7 +96,9 @@ TEST_P(DepthEngineModes, RightPredictionIsTrustedFromTheImageAlone) {
     EXPECT_GT(result.holdout.points, 100);
     EXPECT_LT(result.holdout.rms_m, 0.02);
     EXPECT_GT(*result.stereo.sim_pred, *result.stereo.sim + 0.2);
-    EXPECT_EQ(cv::countNonZero(result.pixel_source == static_cast<int>(PixelSource::kPredicted)), 160 * 144);
+    EXPECT_EQ(result.pixel_source.at<std::uint8_t>(72, 80), static_cast<int>(PixelSource::kPredicted));
+    EXPECT_EQ(result.pixel_source.at<std::uint8_t>(2, 2),
+              static_cast<int>(PixelSource::kPredictedOutsideFov));
   }
   EXPECT_EQ(net->encoded, static_cast<int>(out.results.size()));
 }
@@ -118,6 +120,33 @@ TEST_P(DepthEngineModes, WrongPredictionIsRefinedUntilItIsRight) {
   }
   EXPECT_GT(refined, 40);
   EXPECT_EQ(net->encoded, images_in(messages)) << "an image is encoded once, however often it is refined";
+}
+
+TEST(DepthEngine, ANewerImageEndsTheRefinementOfOlderOnesIfAsked) {
+  LevelWorld world(kHeight_m);
+  const auto messages = fakes::flight(world, {3.0});
+  const auto net = [] {
+    return std::make_shared<FakePredictor>(
+        [](int points) { return points > 5500 ? kHeight_m : 1.4 * kHeight_m; });
+  };
+  DepthEngineConfig config = config_of(true);  // waits for the LiDAR after the image, 0.4 s of it
+  config.newer_image = NewerImage::kLatest;
+  const Outcome latest = run(config, messages, net());
+  expect_complete(latest, messages);
+  for (std::size_t i = 0; i + 1 < latest.results.size(); ++i) {
+    EXPECT_EQ(latest.results[i].source, DepthSource::kNone);
+    EXPECT_NE(latest.results[i].reason.find("a newer image came"), std::string::npos);
+  }
+  // Who has the LiDAR of the second before has no older images to end.
+  config = config_of(false);
+  const Outcome finish = run(config, messages, net());
+  config.newer_image = NewerImage::kLatest;
+  const Outcome with_history = run(config, messages, net());
+  ASSERT_EQ(with_history.results.size(), finish.results.size());
+  for (std::size_t i = 0; i < finish.results.size(); ++i) {
+    if (finish.results[i].t_ns < kStart_ns + 1100 * kMillisecond) continue;
+    EXPECT_EQ(with_history.results[i].source, finish.results[i].source) << i;
+  }
 }
 
 TEST_P(DepthEngineModes, NeverRightFallsBackAfterOneSecondOfLidar) {
