@@ -51,7 +51,7 @@ NetworkBenchmark benchmark_network(const std::filesystem::path& checkpoint, cons
   rig.intrinsics = k;
   rig.baseline_m = baseline_m;
   const auto predictor = make_network_predictor(checkpoint, rig, config);
-  const OnboardNetwork network = load_onboard_network(checkpoint, config);
+  OnboardNetwork network = load_onboard_network(checkpoint, config);
   DepthCompletionNet net = network.net;
   const torch::InferenceMode guard;
 
@@ -79,18 +79,22 @@ NetworkBenchmark benchmark_network(const std::filesystem::path& checkpoint, cons
   constexpr double kConvolution_gflop = 2e-9 * kChannels * kChannels * 9 * kSide_px * kSide_px;
 
   const auto encoded = predictor->encode(view);
-  const Tensors features = net->image_features(network.prepare(image_input));
+  const auto image_part = [&] {
+    return network.decoder->image_part(
+        pyramid(image_input, net->image_features(network.prepare(image_input))));
+  };
+  const Tensors known_part = image_part();
   torch::Tensor depth_m;
-  const auto refine = [&](const Tensors& image_maps) {
-    depth_m = net->decode(pyramid(image_input, image_maps),
-                          pyramid(depth_input, net->depth_features(network.prepare(depth_input))))
-                  .to(torch::kCPU, torch::kFloat32);
+  const auto refine = [&](const Tensors& part) {
+    depth_m =
+        network.decoder->decode(part, pyramid(depth_input, net->depth_features(network.prepare(depth_input))))
+            .to(torch::kCPU, torch::kFloat32);
   };
   const std::vector<std::pair<const char*, std::function<void()>>> passes{
       {"full pass", [&] { predictor->refine(*predictor->encode(view), sparse_m); }},
       {"refinement", [&] { predictor->refine(*encoded, sparse_m); }},
-      {"learned full pass", [&] { refine(net->image_features(network.prepare(image_input))); }},
-      {"learned refinement", [&] { refine(features); }},
+      {"learned full pass", [&] { refine(image_part()); }},
+      {"learned refinement", [&] { refine(known_part); }},
       {"convolution", [&] {
          torch::conv2d(x, weight, {}, 1, 1).flatten()[0].to(torch::kCPU, torch::kFloat32).item<float>();
        }}};

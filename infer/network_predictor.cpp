@@ -18,8 +18,8 @@ namespace {
 constexpr int kWarmUpRuns = 2;  // oneDNN's kernels are made in the first
 
 struct ImagePyramid : EncodedImage {
-  std::vector<torch::Tensor> maps;  // [0] float32, the others of the network's type
-  torch::Tensor prior_m;            // [1,1,H,W], of the network's depth kind
+  std::vector<torch::Tensor> decoder_part;  // of the network's type
+  torch::Tensor prior_m;                    // [1,1,H,W], of the network's depth kind
 };
 
 /// [1,3,H,W] float32, RGB in 0..1, as the network was trained with; undefined for an empty image
@@ -54,7 +54,8 @@ class NetworkPredictor : public DepthPredictor {
     const torch::Tensor input = network_.net->image_input(
         {on_device(image_tensor(view.left)), on_device(image_tensor(view.right)), pyramid->prior_m,
          torch::full({1}, rig_.intrinsics.fx_px * rig_.baseline_m, network_.device)});
-    pyramid->maps = pyramid_of(input, network_.net->image_features(network_.prepare(input)));
+    pyramid->decoder_part = network_.decoder->image_part(
+        pyramid_of(input, network_.net->image_features(network_.prepare(input))));
     return pyramid;
   }
 
@@ -66,8 +67,9 @@ class NetworkPredictor : public DepthPredictor {
     const auto& pyramid = dynamic_cast<const ImagePyramid&>(image);
     const torch::Tensor input = network_.net->depth_input(on_device(depth_tensor(input_m)), pyramid.prior_m);
     const torch::Tensor predicted =
-        network_.net
-            ->decode(pyramid.maps, pyramid_of(input, network_.net->depth_features(network_.prepare(input))))
+        network_.decoder
+            ->decode(pyramid.decoder_part,
+                     pyramid_of(input, network_.net->depth_features(network_.prepare(input))))
             .to(torch::kCPU, torch::kFloat32)
             .contiguous();
     const cv::Mat depth_m = cv::Mat(sparse_m.size(), CV_32FC1, predicted.data_ptr<float>()).clone();

@@ -49,6 +49,8 @@ OnboardNetwork load_onboard_network(const std::filesystem::path& checkpoint, con
   if (network.net->config().normalization == Normalization::kBatch)
     network.net = fold_batch_norm(network.net);
   network.net->eval();
+  network.decoder.emplace(network.net);
+  network.decoder->to(network.device, network.type);
   network.net->to(network.device, network.type);
   for (torch::Tensor& parameter : network.net->parameters()) {
     parameter.set_requires_grad(false);

@@ -1,19 +1,22 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include <torch/torch.h>
 
 #include "infer/network_config.hpp"
 #include "models/depth_completion_net.hpp"
+#include "models/split_decoder.hpp"
 
 namespace alight {
 
 /// A trained network made ready to fly: evaluation mode, no gradients, batch normalisation folded into the convolutions,
-/// weights on their device, in their type and channels-last. Tracing and freezing it as TorchScript, with or without
+/// weights on their device, in their type and channels-last, decoder split into the image's part and the rest. Tracing and freezing it as TorchScript, with or without
 /// fusion, was measured to gain nothing over this.
 struct OnboardNetwork {
   DepthCompletionNet net{nullptr};
+  std::optional<SplitDecoder> decoder;
   torch::Device device = torch::kCPU;
   torch::Dtype type = torch::kFloat32;
 

@@ -232,11 +232,11 @@ torch::Tensor DepthCompletionNetImpl::decode(const std::vector<torch::Tensor>& i
   if (detail_) {
     x = detail_->forward(torch::cat({x, image_pyramid[0].to(x.dtype()), depth_pyramid[0].to(x.dtype())}, 1));
   }
-  return to_depth(head_->forward(x).to(torch::kFloat32), depth_pyramid[0]);
+  return depth_of(x, depth_pyramid[0]);
 }
 
-torch::Tensor DepthCompletionNetImpl::to_depth(const torch::Tensor& raw,
-                                               const torch::Tensor& depth_input) const {
+torch::Tensor DepthCompletionNetImpl::depth_of(const torch::Tensor& x, const torch::Tensor& depth_input) {
+  const torch::Tensor raw = head_->forward(x).to(torch::kFloat32);
   if (config_.head == Head::kDirect) {
     return config_.min_depth_m *
            torch::exp(torch::sigmoid(raw) * std::log(config_.max_depth_m / config_.min_depth_m));

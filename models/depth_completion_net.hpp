@@ -106,11 +106,13 @@ class DepthCompletionNetImpl : public torch::nn::Module {
   /// decode(encode_image(view), encode_depth(sparse_m, view.prior_m))
   torch::Tensor forward(const SceneView& view, const torch::Tensor& sparse_m);
 
+  /// The last layer on the decoder's finest map. @param x [B,C,H,W] @param depth_input of depth_input()
+  /// @returns depth [B,1,H,W]
+  torch::Tensor depth_of(const torch::Tensor& x, const torch::Tensor& depth_input);
+
   const DepthCompletionConfig& config() const { return config_; }
 
  private:
-  torch::Tensor to_depth(const torch::Tensor& raw, const torch::Tensor& depth_input) const;
-
   DepthCompletionConfig config_;
   ResnetEncoder image_encoder_{nullptr};
   ResnetEncoder depth_encoder_{nullptr};
