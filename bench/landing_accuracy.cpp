@@ -95,13 +95,13 @@ double standard_error(const std::vector<MaskScore>& worlds, double (*part)(const
 }
 
 void print_table(const Options& options, const std::vector<Tally>& tallies) {
-  std::printf("| rule | height | called safe, m2 | precision | without the limit's band | recall |\n");
-  std::printf("|---|---:|---:|---:|---:|---:|\n");
+  std::printf("| rule | height | called safe, m2 | precision | of what is seen | off the limit | recall |\n");
+  std::printf("|---|---:|---:|---:|---:|---:|---:|\n");
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     for (const double height_m : options.heights_m) {
       const MaskScore& s = tallies[i].by_height.at(height_m);
-      std::printf("| %s | %g m | %.0f | %.4f | %.4f | %.3f |\n", kMethods[i].c_str(), height_m, s.called_safe_m2,
-                  s.precision(), s.precision_off_limit(), s.recall());
+      std::printf("| %s | %g m | %.0f | %.4f | %.4f | %.4f | %.3f |\n", kMethods[i].c_str(), height_m, s.called_safe_m2,
+                  s.precision(), s.precision_of_seen(), s.precision_off_limit(), s.recall());
     }
     const MaskScore& s = tallies[i].all;
     const double precision_error = standard_error(
@@ -110,15 +110,17 @@ void print_table(const Options& options, const std::vector<Tally>& tallies) {
     const double recall_error = standard_error(
         tallies[i].by_world, [](const MaskScore& w) { return w.found_m2; },
         [](const MaskScore& w) { return w.roomy_m2; });
-    std::printf("| **%s** | all | %.0f | **%.4f** +- %.4f | %.4f | **%.3f** +- %.3f |\n", kMethods[i].c_str(),
-                s.called_safe_m2, s.precision(), precision_error, s.precision_off_limit(), s.recall(), recall_error);
+    std::printf("| **%s** | all | %.0f | %.4f +- %.4f | **%.4f** | %.4f | **%.3f** +- %.3f |\n", kMethods[i].c_str(),
+                s.called_safe_m2, s.precision(), precision_error, s.precision_of_seen(),
+                s.precision_off_limit(), s.recall(), recall_error);
   }
   std::printf("\nWrongly called safe, by what the pixel shows (m2):\n");
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     std::printf("* %s:", kMethods[i].c_str());
     for (const auto& [material, area_m2] : tallies[i].all.wrong_by_material_m2)
       std::printf(" %s %.1f", material.c_str(), area_m2);
-    std::printf("; at the truth's limit %.1f\n", tallies[i].all.wrongly_at_limit_m2);
+    std::printf("; at the truth's limit %.1f; outside the image %.1f\n", tallies[i].all.wrongly_at_limit_m2,
+                tallies[i].all.wrongly_hidden_m2);
   }
 }
 

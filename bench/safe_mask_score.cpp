@@ -46,6 +46,36 @@ cv::Mat level_material(const cv::Mat& material, const PinholeIntrinsics& k, cons
   return out;
 }
 
+namespace {
+
+/// Cells of the truth some cell of whose disc has its top surface outside the image.
+cv::Mat hidden_cells(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConfig& config, const cv::Mat& material,
+                     const PinholeIntrinsics& k, const Eigen::Isometry3d& T_world_level) {
+  const cv::Mat& elevation_m = truth.elevation_m();
+  const double min_m = -0.5 * config.cell_m * elevation_m.cols;
+  const Eigen::Isometry3d T_level_world = T_world_level.inverse();
+  cv::Mat outside(elevation_m.size(), CV_8UC1, cv::Scalar(255));
+  for (int row = 0; row < outside.rows; ++row) {
+    for (int column = 0; column < outside.cols; ++column) {
+      const Eigen::Vector3d p = T_level_world * Eigen::Vector3d(min_m + (column + 0.5) * config.cell_m,
+                                                                min_m + (row + 0.5) * config.cell_m,
+                                                                static_cast<double>(elevation_m.at<float>(row, column)));
+      if (!(p.z() > 0)) continue;
+      const Eigen::Vector2d px = k.project(p);
+      if (!k.contains(px.x(), px.y())) continue;
+      const bool seen =
+          material.at<std::uint8_t>(static_cast<int>(px.y() + 0.5), static_cast<int>(px.x() + 0.5)) != 255;
+      if (seen) outside.at<std::uint8_t>(row, column) = 0;
+    }
+  }
+  const int reach = static_cast<int>(config.radius_m / config.cell_m + 1e-9);
+  const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
+  cv::dilate(outside, outside, disc);
+  return outside;
+}
+
+}  // namespace
+
 TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConfig& config,
                      const cv::Mat& level_depth_m, const cv::Mat& material, const PinholeIntrinsics& k,
                      const Eigen::Isometry3d& T_world_level, double clearance_m) {
@@ -55,6 +85,8 @@ TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConf
   view.safe = truth.safe_mask(level_depth_m, k, T_world_level);
   view.roomy = cv::Mat::zeros(k.size(), CV_8UC1);
   view.at_limit = cv::Mat::zeros(k.size(), CV_8UC1);
+  view.hidden = cv::Mat::zeros(k.size(), CV_8UC1);
+  const cv::Mat hidden = hidden_cells(truth, config, material, k, T_world_level);
   view.area_m2 = cv::Mat::zeros(k.size(), CV_32FC1);
   cv::Mat framed;
   cv::copyMakeBorder(material != 255, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
@@ -69,6 +101,7 @@ TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConf
       const double c = std::floor((p.x() - min_m) / config.cell_m);
       const double r = std::floor((p.y() - min_m) / config.cell_m);
       if (!(c >= 0 && r >= 0 && c < truth.safe().cols && r < truth.safe().rows)) continue;
+      view.hidden.at<std::uint8_t>(v, u) = hidden.at<std::uint8_t>(static_cast<int>(r), static_cast<int>(c));
       view.area_m2.at<float>(v, u) = static_cast<float>(z_m * z_m / (k.fx_px * k.fy_px));
       const double slope_deg = to_degrees(
           static_cast<double>(truth.slope_rad().at<float>(static_cast<int>(r), static_cast<int>(c))));
@@ -92,15 +125,11 @@ TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConf
 void MaskScore::add(const MaskScore& o) {
   called_safe_m2 += o.called_safe_m2;
   rightly_m2 += o.rightly_m2;
+  wrongly_hidden_m2 += o.wrongly_hidden_m2;
   wrongly_at_limit_m2 += o.wrongly_at_limit_m2;
   roomy_m2 += o.roomy_m2;
   found_m2 += o.found_m2;
   for (const auto& [material, area_m2] : o.wrong_by_material_m2) wrong_by_material_m2[material] += area_m2;
-}
-
-double MaskScore::precision_off_limit() const {
-  const double called_m2 = called_safe_m2 - wrongly_at_limit_m2;
-  return called_m2 > 0 ? rightly_m2 / called_m2 : 1;
 }
 
 MaskScore score_mask(const cv::Mat& safe, const TruthView& truth, const cv::Mat& material) {
@@ -118,6 +147,10 @@ MaskScore score_mask(const cv::Mat& safe, const TruthView& truth, const cv::Mat&
       score.called_safe_m2 += area_m2;
       if (truth.safe.at<std::uint8_t>(v, u) != 0) {
         score.rightly_m2 += area_m2;
+        continue;
+      }
+      if (truth.hidden.at<std::uint8_t>(v, u) != 0) {
+        score.wrongly_hidden_m2 += area_m2;
         continue;
       }
       if (truth.at_limit.at<std::uint8_t>(v, u) != 0) score.wrongly_at_limit_m2 += area_m2;

@@ -32,6 +32,7 @@ struct TruthView {
   cv::Mat safe;      ///< CV_8UC1, the ground under the pixel is safe
   cv::Mat roomy;     ///< CV_8UC1, and so is everything within `clearance_m` of it, all of it inside the view
   cv::Mat area_m2;   ///< CV_32FC1, ground that a pixel shows; 0 where nothing is known
+  cv::Mat hidden;    ///< CV_8UC1, something that decides the truth here is outside the image: a crown over this ground
   cv::Mat at_limit;  ///< CV_8UC1, slope within 0.5 degrees or residual within 1 cm of the truth's limit
 };
 /// @param material from level_material
@@ -43,16 +44,24 @@ TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConf
 struct MaskScore {
   double called_safe_m2 = 0;
   double rightly_m2 = 0;            ///< of these truly safe
-  double wrongly_at_limit_m2 = 0;   ///< of the others, at the truth's limit
+  double wrongly_hidden_m2 = 0;     ///< of the others, decided by what is outside the image
+  double wrongly_at_limit_m2 = 0;   ///< of the rest, at the truth's limit
   double roomy_m2 = 0;              ///< truly safe with the vehicle's clearance
   double found_m2 = 0;              ///< of these called safe
   std::map<std::string, double> wrong_by_material_m2;
 
   void add(const MaskScore& other);
   double precision() const { return called_safe_m2 > 0 ? rightly_m2 / called_safe_m2 : 1; }
-  /// The same without what lies at the truth's limit.
-  double precision_off_limit() const;
+  /// The same without what the image cannot show.
+  double precision_of_seen() const { return without(wrongly_hidden_m2); }
+  /// And without what lies at the truth's limit.
+  double precision_off_limit() const { return without(wrongly_hidden_m2 + wrongly_at_limit_m2); }
   double recall() const { return roomy_m2 > 0 ? found_m2 / roomy_m2 : 1; }
+
+ private:
+  double without(double area_m2) const {
+    return called_safe_m2 > area_m2 ? rightly_m2 / (called_safe_m2 - area_m2) : 1;
+  }
 };
 MaskScore score_mask(const cv::Mat& safe, const TruthView& truth, const cv::Mat& material);
 

@@ -65,6 +65,8 @@ Points points_of(const cv::Mat& depth_m, const PinholeIntrinsics& k, const Eigen
 
 struct Cell {
   float sum_m = 0;
+  float east_m = 0;
+  float north_m = 0;
   float count = 0;
   float top_m = -std::numeric_limits<float>::infinity();
   float bottom_m = std::numeric_limits<float>::infinity();
@@ -74,9 +76,9 @@ int cell_of(float coordinate_m, float per_m) { return static_cast<int>(std::floo
 
 }  // namespace
 
-bool ElevationRaster::cell_at(double east_m, double north_m, int& column, int& row) const {
-  const double c = std::floor(east_m / cell_m) - static_cast<double>(first_column);
-  const double r = std::floor(north_m / cell_m) - static_cast<double>(first_row);
+bool ElevationRaster::cell_at(double x_m, double y_m, int& column, int& row) const {
+  const double c = std::floor(x_m / cell_m) - static_cast<double>(first_column);
+  const double r = std::floor(y_m / cell_m) - static_cast<double>(first_row);
   if (!(c >= 0 && r >= 0 && c < known.cols && r < known.rows)) return false;
   column = static_cast<int>(c);
   row = static_cast<int>(r);
@@ -111,6 +113,8 @@ ElevationRaster rasterize(const cv::Mat& depth_m, const PinholeIntrinsics& intri
     Cell& cell = cells[static_cast<std::size_t>(row * size.width + column)];
     const float height = points.height_m[i];
     cell.sum_m += height;
+    cell.east_m += points.east_m[i];
+    cell.north_m += points.north_m[i];
     cell.count += 1;
     cell.top_m = std::max(cell.top_m, height);
     cell.bottom_m = std::min(cell.bottom_m, height);
@@ -118,7 +122,10 @@ ElevationRaster rasterize(const cv::Mat& depth_m, const PinholeIntrinsics& intri
   raster.mean_m.create(size, CV_32FC1);
   raster.top_m.create(size, CV_32FC1);
   raster.bottom_m.create(size, CV_32FC1);
+  raster.east_m.create(size, CV_32FC1);
+  raster.north_m.create(size, CV_32FC1);
   raster.known.create(size, CV_8UC1);
+  const auto side_m = static_cast<float>(cell_m);
   const Cell* cell = cells.data();
   for (int row = 0; row < size.height; ++row) {
     for (int column = 0; column < size.width; ++column, ++cell) {
@@ -126,6 +133,10 @@ ElevationRaster rasterize(const cv::Mat& depth_m, const PinholeIntrinsics& intri
       raster.mean_m.at<float>(row, column) = known ? cell->sum_m / cell->count : 0.F;
       raster.top_m.at<float>(row, column) = known ? cell->top_m : 0.F;
       raster.bottom_m.at<float>(row, column) = known ? cell->bottom_m : 0.F;
+      const float middle_east_m = side_m * (static_cast<float>(column0 + column) + 0.5F);
+      const float middle_north_m = side_m * (static_cast<float>(row0 + row) + 0.5F);
+      raster.east_m.at<float>(row, column) = known ? cell->east_m / cell->count - middle_east_m : 0.F;
+      raster.north_m.at<float>(row, column) = known ? cell->north_m / cell->count - middle_north_m : 0.F;
       raster.known.at<std::uint8_t>(row, column) = known ? 255 : 0;
     }
   }

@@ -20,6 +20,8 @@ struct ElevationRaster {
   cv::Mat mean_m;    ///< CV_32FC1, 0 where unknown
   cv::Mat top_m;     ///< CV_32FC1, the highest point, as above
   cv::Mat bottom_m;  ///< CV_32FC1, the lowest point
+  cv::Mat east_m;    ///< CV_32FC1, mean position of the points, from the cell's centre
+  cv::Mat north_m;   ///< CV_32FC1, likewise
   cv::Mat known;     ///< CV_8UC1, 255 where at least one point fell
 
   bool empty() const { return known.empty(); }
@@ -29,8 +31,8 @@ struct ElevationRaster {
     return {(static_cast<double>(first_column + column) + 0.5) * cell_m,
             (static_cast<double>(first_row + row) + 0.5) * cell_m};
   }
-  /// The cell over a place; false outside the raster.
-  bool cell_at(double east_m, double north_m, int& column, int& row) const;
+  /// The cell over a place of the world; false outside the raster.
+  bool cell_at(double x_m, double y_m, int& column, int& row) const;
 };
 
 /// Every known pixel of a depth map as a point of the raster.

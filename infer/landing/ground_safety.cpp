@@ -37,8 +37,9 @@ void remove_platforms(const ElevationRaster& raster, const GroundShape& shape, c
   cv::Mat labels;
   const int count = cv::connectedComponents(safe, labels, 4, CV_32S);
   if (count <= 1) return;
-  // From the last flat cell its disc reaches to the edge; one more cell is over it.
-  const int reach = cells(plane_fit.radius_m, raster.cell_m) + 2;
+  // From the last flat cell its disc reaches to the edge or to the parapet; beyond that it goes down.
+  constexpr double kParapet_m = 1.0;
+  const int reach = cells(plane_fit.radius_m + kParapet_m, raster.cell_m);
   const cv::Mat lowest_m = lowest_nearby(raster, reach);
   std::vector<Border> borders(static_cast<std::size_t>(count));
   for (int row = 1; row + 1 < safe.rows; ++row) {

@@ -11,10 +11,10 @@ namespace alight {
 /// What makes a cell of the ground unsafe besides its own slope and residual.
 struct GroundSafetyConfig {
   /// Safe cells nearer to an unsafe one are given up: slope and residual are known to a cell's width only.
-  double guard_m = 0.2;
+  double guard_m = 0.4;
   /// Level ground whose seen border falls away by more than this is a roof, a container or the like. 0: off.
   double platform_height_m = 1.0;
-  double platform_border = 0.5;  ///< share of the border that has to fall away
+  double platform_border = 0.3;  ///< share of the border that has to fall away
 };
 void bind(Binder& b, GroundSafetyConfig& c);
 

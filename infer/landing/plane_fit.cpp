@@ -29,48 +29,48 @@ std::vector<Offset> disc(double radius_m, double cell_m, int reach) {
   return offsets;
 }
 
-/// The planes of one row of cells.
+/// A plane a cell: height in the cell's middle and gradients, all CV_32FC1.
 struct Planes {
-  explicit Planes(int columns)
-      : mean_m(static_cast<std::size_t>(columns)), east(mean_m.size()), north(mean_m.size()) {}
-  std::vector<float> mean_m;
-  std::vector<float> east;  // gradients
-  std::vector<float> north;
+  cv::Mat mean_m;
+  cv::Mat east;
+  cv::Mat north;
 };
 
 /// Loops over the disc outside, over the row inside: the compiler works on several cells at once.
-void fit_row(const cv::Mat& height_m, int row, int begin, int end, const std::vector<Offset>& offsets,
-             Planes& planes) {
-  std::fill(planes.mean_m.begin(), planes.mean_m.end(), 0.F);
-  std::fill(planes.east.begin(), planes.east.end(), 0.F);
-  std::fill(planes.north.begin(), planes.north.end(), 0.F);
-  float* const mean = planes.mean_m.data();
-  float* const east = planes.east.data();
-  float* const north = planes.north.data();
+Planes planes_through(const cv::Mat& height_m, const std::vector<Offset>& offsets, int reach) {
+  Planes planes{cv::Mat::zeros(height_m.size(), CV_32FC1), cv::Mat::zeros(height_m.size(), CV_32FC1),
+                cv::Mat::zeros(height_m.size(), CV_32FC1)};
   float squares = 0;
-  for (const Offset& o : offsets) {
-    const float* const z = height_m.ptr<float>(row + o.row) + o.column;
-    for (int c = begin; c < end; ++c) {
-      mean[c] += z[c];
-      east[c] += o.east_m * z[c];
-      north[c] += o.north_m * z[c];
-    }
-    squares += o.east_m * o.east_m;
-  }
+  for (const Offset& o : offsets) squares += o.east_m * o.east_m;
   const float per_cell = 1.F / static_cast<float>(offsets.size());
-  for (int c = begin; c < end; ++c) {
-    mean[c] *= per_cell;
-    east[c] /= squares;
-    north[c] /= squares;
+  const int end = height_m.cols - reach;
+  for (int row = reach; row < height_m.rows - reach; ++row) {
+    auto* const mean = planes.mean_m.ptr<float>(row);
+    auto* const east = planes.east.ptr<float>(row);
+    auto* const north = planes.north.ptr<float>(row);
+    for (const Offset& o : offsets) {
+      const float* const z = height_m.ptr<float>(row + o.row) + o.column;
+      for (int c = reach; c < end; ++c) {
+        mean[c] += z[c];
+        east[c] += o.east_m * z[c];
+        north[c] += o.north_m * z[c];
+      }
+    }
+    for (int c = reach; c < end; ++c) {
+      mean[c] *= per_cell;
+      east[c] /= squares;
+      north[c] /= squares;
+    }
   }
+  return planes;
 }
 
 void residuals(const cv::Mat& top_m, const cv::Mat& bottom_m, int row, int begin, int end,
                const std::vector<Offset>& offsets, float half_cell_m, const Planes& planes,
                float* const residual_m, float* const deviation_m) {
-  const float* const mean = planes.mean_m.data();
-  const float* const east = planes.east.data();
-  const float* const north = planes.north.data();
+  const float* const mean = planes.mean_m.ptr<float>(row);
+  const float* const east = planes.east.ptr<float>(row);
+  const float* const north = planes.north.ptr<float>(row);
   for (const Offset& o : offsets) {
     const float* const top = top_m.ptr<float>(row + o.row) + o.column;
     const float* const bottom = bottom_m.ptr<float>(row + o.row) + o.column;
@@ -96,6 +96,20 @@ void residuals(const cv::Mat& top_m, const cv::Mat& bottom_m, int row, int begin
   }
 }
 
+/// Cells without a plane of their own take the mean of those around them that have one; 0 where there is none.
+void extend(const cv::Mat& known, int reach, cv::Mat& gradient) {
+  cv::Mat weight;
+  known.convertTo(weight, CV_32FC1, 1 / 255.0);
+  gradient = gradient.mul(weight);
+  const cv::Size window(2 * reach + 1, 2 * reach + 1);
+  cv::Mat sum;
+  cv::Mat count;
+  cv::boxFilter(gradient, sum, CV_32F, window, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::boxFilter(weight, count, CV_32F, window, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::Mat mean = sum / cv::max(count, 1.0);
+  mean.copyTo(gradient, ~known);
+}
+
 }  // namespace
 
 void bind(Binder& b, PlaneFitConfig& c) {
@@ -111,7 +125,7 @@ void bind(Binder& b, PlaneFitConfig& c) {
 GroundShape fit_planes(const ElevationRaster& raster, const PlaneFitConfig& config) {
   const cv::Size size = raster.size();
   GroundShape shape{cv::Mat::zeros(size, CV_32FC1), cv::Mat::zeros(size, CV_32FC1),
-                    cv::Mat::zeros(size, CV_32FC1), cv::Mat::zeros(size, CV_8UC1)};
+                    cv::Mat::zeros(size, CV_32FC1), raster.mean_m.clone(), cv::Mat::zeros(size, CV_8UC1)};
   const double radius_m = std::max(config.radius_m, raster.cell_m);
   const int reach = static_cast<int>(std::floor(radius_m / raster.cell_m + 1e-9));
   if (size.width <= 2 * reach || size.height <= 2 * reach) return shape;
@@ -119,26 +133,24 @@ GroundShape fit_planes(const ElevationRaster& raster, const PlaneFitConfig& conf
   cv::Mat kernel = cv::Mat::zeros(2 * reach + 1, 2 * reach + 1, CV_8UC1);
   for (const Offset& o : offsets) kernel.at<std::uint8_t>(o.row + reach, o.column + reach) = 1;
   cv::erode(raster.known, shape.known, kernel, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  const cv::Mat unknown = ~shape.known;
   // Sums of large heights would cost digits.
   const cv::Scalar level_m = cv::mean(raster.mean_m, raster.known);
   const cv::Mat mean_m = raster.mean_m - level_m;
+  Planes planes = planes_through(mean_m, offsets, reach);
+  extend(shape.known, reach, planes.east);
+  extend(shape.known, reach, planes.north);
+  const cv::Mat centre_m = mean_m - planes.east.mul(raster.east_m) - planes.north.mul(raster.north_m);
+  planes = planes_through(centre_m, offsets, reach);
   const cv::Mat top_m = raster.top_m - level_m;
   const cv::Mat bottom_m = raster.bottom_m - level_m;
-  Planes planes(size.width);
   const auto half_cell_m = static_cast<float>(raster.cell_m / 2);
-  const int begin = reach;
-  const int end = size.width - reach;
   for (int row = reach; row < size.height - reach; ++row) {
-    fit_row(mean_m, row, begin, end, offsets, planes);
-    auto* const residual_m = shape.residual_m.ptr<float>(row);
-    residuals(top_m, bottom_m, row, begin, end, offsets, half_cell_m, planes, residual_m,
-              shape.deviation_m.ptr<float>(row));
-    auto* const gradient = shape.gradient.ptr<float>(row);
-    const float* const east = planes.east.data();
-    const float* const north = planes.north.data();
-    for (int c = begin; c < end; ++c) gradient[c] = std::sqrt(east[c] * east[c] + north[c] * north[c]);
+    residuals(top_m, bottom_m, row, reach, size.width - reach, offsets, half_cell_m, planes,
+              shape.residual_m.ptr<float>(row), shape.deviation_m.ptr<float>(row));
   }
-  const cv::Mat unknown = ~shape.known;
+  cv::magnitude(planes.east, planes.north, shape.gradient);
+  shape.centre_m = centre_m + level_m;
   shape.gradient.setTo(0, unknown);
   shape.residual_m.setTo(0, unknown);
   shape.deviation_m.setTo(0, unknown);
