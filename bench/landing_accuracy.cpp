@@ -28,7 +28,8 @@ struct Options {
   double max_tilt_deg = 15;
 };
 
-const std::vector<std::string> kMethods = {"plane fit", "derivatives (paper)", "PX4-Avoidance", "HALSS circles"};
+const std::vector<std::string> kMethods = {"plane fit", "derivatives (paper)", "PX4-Avoidance",
+                                           "HALSS circles"};
 
 /// Scores a method collects: of every height and of every world.
 struct Tally {
@@ -37,15 +38,15 @@ struct Tally {
   MaskScore all;
 };
 
-std::vector<cv::Mat> masks(const SiteSelector& planes, const SiteSelector& derivatives, const cv::Mat& depth_m,
-                           const Eigen::Isometry3d& T, cv::Mat& level_depth_m) {
+std::vector<cv::Mat> masks(const SiteSelector& planes, const SiteSelector& derivatives,
+                           const cv::Mat& depth_m, const Eigen::Isometry3d& T, cv::Mat& level_depth_m) {
   const PinholeIntrinsics& k = planes.intrinsics();
   const SiteSelection selection = planes.select(depth_m, T);
   level_depth_m = selection.level_depth_m;
   return {selection.safe, derivatives.select(depth_m, T).safe,
           px4_safe_mask(depth_m, level_depth_m, k, T, selection.R_level_camera),
-          halss_safe_mask(depth_m, level_depth_m, k, T, selection.R_level_camera, planes.config().max_slope_deg,
-                          planes.config().min_radius_m)};
+          halss_safe_mask(depth_m, level_depth_m, k, T, selection.R_level_camera,
+                          planes.config().max_slope_deg, planes.config().min_radius_m)};
 }
 
 void run_world(const sim::WorldConfig& place, const Options& options, const SiteSelector& planes,
@@ -62,12 +63,14 @@ void run_world(const sim::WorldConfig& place, const Options& options, const Site
     for (const Station& s : stations(world, truth, height_m, options.stations, options.max_tilt_deg, seed)) {
       const PerfectDepth perfect = perfect_depth(renderer, k, s.T_world_camera);
       cv::Mat level_depth_m;
-      const std::vector<cv::Mat> safe = masks(planes, derivatives, perfect.depth_m, s.T_world_camera, level_depth_m);
+      const std::vector<cv::Mat> safe =
+          masks(planes, derivatives, perfect.depth_m, s.T_world_camera, level_depth_m);
       const Eigen::Matrix3d R_level_camera = level_rotation(s.T_world_camera.linear());
       Eigen::Isometry3d T_world_level = s.T_world_camera;
       T_world_level.linear() = s.T_world_camera.linear() * R_level_camera.transpose();
       const cv::Mat material = level_material(perfect.material, k, R_level_camera);
-      const TruthView view = truth_view(truth, truth_config, level_depth_m, material, k, T_world_level, clearance_m);
+      const TruthView view =
+          truth_view(truth, truth_config, level_depth_m, material, k, T_world_level, clearance_m);
       for (std::size_t i = 0; i < safe.size(); ++i) {
         const MaskScore score = score_mask(safe[i], view, material);
         tallies[i].by_height[height_m].add(score);
@@ -100,8 +103,9 @@ void print_table(const Options& options, const std::vector<Tally>& tallies) {
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     for (const double height_m : options.heights_m) {
       const MaskScore& s = tallies[i].by_height.at(height_m);
-      std::printf("| %s | %g m | %.0f | %.4f | %.4f | %.4f | %.3f |\n", kMethods[i].c_str(), height_m, s.called_safe_m2,
-                  s.precision(), s.precision_of_seen(), s.precision_off_limit(), s.recall());
+      std::printf("| %s | %g m | %.0f | %.4f | %.4f | %.4f | %.3f |\n", kMethods[i].c_str(), height_m,
+                  s.called_safe_m2, s.precision(), s.precision_of_seen(), s.precision_off_limit(),
+                  s.recall());
     }
     const MaskScore& s = tallies[i].all;
     const double precision_error = standard_error(
@@ -110,8 +114,8 @@ void print_table(const Options& options, const std::vector<Tally>& tallies) {
     const double recall_error = standard_error(
         tallies[i].by_world, [](const MaskScore& w) { return w.found_m2; },
         [](const MaskScore& w) { return w.roomy_m2; });
-    std::printf("| **%s** | all | %.0f | %.4f +- %.4f | **%.4f** | %.4f | **%.3f** +- %.3f |\n", kMethods[i].c_str(),
-                s.called_safe_m2, s.precision(), precision_error, s.precision_of_seen(),
+    std::printf("| **%s** | all | %.0f | %.4f +- %.4f | **%.4f** | %.4f | **%.3f** +- %.3f |\n",
+                kMethods[i].c_str(), s.called_safe_m2, s.precision(), precision_error, s.precision_of_seen(),
                 s.precision_off_limit(), s.recall(), recall_error);
   }
   std::printf("\nWrongly called safe, by what the pixel shows (m2):\n");
@@ -153,7 +157,8 @@ int measure(const Options& options) {
 int main(int argc, char** argv) {
   using alight::bench::Options;
   CLI::App app(
-      "Holds the safe mask of site selection, and of other systems' rules, against the simulator's truth on perfect "
+      "Holds the safe mask of site selection, and of other systems' rules, against the simulator's truth on "
+      "perfect "
       "depth.",
       "alight-bench-landing");
   app.footer(
@@ -163,10 +168,13 @@ int main(int argc, char** argv) {
   Options options;
   alight::add_config_options(app, options.config);
   app.add_option("--looks", options.looks, "Kinds of places")->capture_default_str();
-  app.add_option("--seeds", options.seeds, "Worlds of each kind")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--seeds", options.seeds, "Worlds of each kind")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--first-seed", options.first_seed, "Seed of the first world")->capture_default_str();
   app.add_option("--heights", options.heights_m, "Heights over the ground, m")->capture_default_str();
-  app.add_option("--stations", options.stations, "Images of each height in each world")->capture_default_str();
+  app.add_option("--stations", options.stations, "Images of each height in each world")
+      ->capture_default_str();
   app.add_option("--max-tilt", options.max_tilt_deg, "Roll and pitch are drawn up to this, degrees")
       ->check(CLI::Range(0.0, 30.0))
       ->capture_default_str();

@@ -18,7 +18,8 @@ Eigen::Isometry3d tilted_camera() {
   Eigen::Isometry3d T_world_camera(Eigen::Translation3d(3, 4, 20));
   Eigen::Matrix3d R_world_down;
   R_world_down << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  T_world_camera.linear() = R_world_down * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  T_world_camera.linear() =
+      R_world_down * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()).toRotationMatrix();
   return T_world_camera;
 }
 

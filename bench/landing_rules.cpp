@@ -25,7 +25,8 @@ cv::Mat shown(const cv::Mat& cells, const ElevationRaster& raster, const cv::Mat
       const Eigen::Vector3d p = T_world_level * (k.ray(u, v) * z_m);
       int column = 0;
       int row = 0;
-      if (raster.cell_at(p.x(), p.y(), column, row)) mask.at<std::uint8_t>(v, u) = cells.at<std::uint8_t>(row, column);
+      if (raster.cell_at(p.x(), p.y(), column, row))
+        mask.at<std::uint8_t>(v, u) = cells.at<std::uint8_t>(row, column);
     }
   }
   return mask;
@@ -60,8 +61,9 @@ Spread spread_of(const ElevationRaster& raster, const cv::Mat& depth_m, const Pi
 
 }  // namespace
 
-cv::Mat px4_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m, const PinholeIntrinsics& intrinsics,
-                      const Eigen::Isometry3d& T_world_camera, const Eigen::Matrix3d& R_level_camera) {
+cv::Mat px4_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m,
+                      const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera,
+                      const Eigen::Matrix3d& R_level_camera) {
   constexpr double kCell_m = 0.25;
   constexpr float kMinPoints = 3;
   constexpr double kMaxDeviation_m = 0.2;
@@ -84,19 +86,21 @@ cv::Mat px4_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m, cons
           const bool inside = r >= 0 && c >= 0 && r < safe.rows && c < safe.cols;
           const bool known = inside && raster.known.at<std::uint8_t>(r, c) != 0;
           flat_cells += inside && flat.at<std::uint8_t>(r, c) != 0 ? 1 : 0;
-          differing += !known || std::abs(raster.mean_m.at<float>(r, c) - own_m) > kMaxMeanDifference_m ? 1 : 0;
+          differing +=
+              !known || std::abs(raster.mean_m.at<float>(r, c) - own_m) > kMaxMeanDifference_m ? 1 : 0;
         }
       }
       const bool known = raster.known.at<std::uint8_t>(row, column) != 0;
-      if (known && flat_cells > kMinFlat && differing <= kMaxDiffering) safe.at<std::uint8_t>(row, column) = 255;
+      if (known && flat_cells > kMinFlat && differing <= kMaxDiffering)
+        safe.at<std::uint8_t>(row, column) = 255;
     }
   }
   return shown(safe, raster, level_depth_m, intrinsics, T_world_camera, R_level_camera);
 }
 
-cv::Mat halss_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m, const PinholeIntrinsics& intrinsics,
-                        const Eigen::Isometry3d& T_world_camera, const Eigen::Matrix3d& R_level_camera,
-                        double max_slope_deg, double min_radius_m) {
+cv::Mat halss_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m,
+                        const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera,
+                        const Eigen::Matrix3d& R_level_camera, double max_slope_deg, double min_radius_m) {
   constexpr double kCell_m = 0.2;
   const ElevationRaster raster = rasterize(depth_m, intrinsics, T_world_camera, kCell_m, 60);
   if (raster.empty()) return cv::Mat::zeros(level_depth_m.size(), CV_8UC1);

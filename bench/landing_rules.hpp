@@ -14,16 +14,17 @@ namespace alight::bench {
 /// more than 0.1 m. Differs: the original wants 100 points a cell and looks at 10 m x 10 m, which the images here cannot
 /// fill from above 9 m; here three points are enough and the whole view counts. No slope, no history (alpha = 0).
 /// @returns CV_8UC1 of the level camera, 255 = safe
-cv::Mat px4_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m, const PinholeIntrinsics& intrinsics,
-                      const Eigen::Isometry3d& T_world_camera, const Eigen::Matrix3d& R_level_camera);
+cv::Mat px4_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m,
+                      const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera,
+                      const Eigen::Matrix3d& R_level_camera);
 
 /// HALSS, the landing site selection of HALO (Hayner et al., ICRA 2023, arXiv:2304.01583): points interpolated to an
 /// elevation raster, its surface normals compared with the vertical, the distance transform of what is flat gives
 /// circles, the largest first, each cut out before the next. Safe is the ground inside the circles of at least
 /// `min_radius_m`. Here: cells of 0.2 m, normals by central differences, 10 degrees. Left out: its learned fine stage.
 /// @returns CV_8UC1 of the level camera, 255 = safe
-cv::Mat halss_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m, const PinholeIntrinsics& intrinsics,
-                        const Eigen::Isometry3d& T_world_camera, const Eigen::Matrix3d& R_level_camera,
-                        double max_slope_deg, double min_radius_m);
+cv::Mat halss_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m,
+                        const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera,
+                        const Eigen::Matrix3d& R_level_camera, double max_slope_deg, double min_radius_m);
 
 }  // namespace alight::bench

@@ -31,7 +31,8 @@ PerfectDepth perfect_depth(const sim::Renderer& renderer, const PinholeIntrinsic
   return out;
 }
 
-cv::Mat level_material(const cv::Mat& material, const PinholeIntrinsics& k, const Eigen::Matrix3d& R_level_camera) {
+cv::Mat level_material(const cv::Mat& material, const PinholeIntrinsics& k,
+                       const Eigen::Matrix3d& R_level_camera) {
   cv::Mat out(material.size(), CV_8UC1, cv::Scalar(255));
   for (int v = 0; v < out.rows; ++v) {
     for (int u = 0; u < out.cols; ++u) {
@@ -49,17 +50,19 @@ cv::Mat level_material(const cv::Mat& material, const PinholeIntrinsics& k, cons
 namespace {
 
 /// Cells of the truth some cell of whose disc has its top surface outside the image.
-cv::Mat hidden_cells(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConfig& config, const cv::Mat& material,
-                     const PinholeIntrinsics& k, const Eigen::Isometry3d& T_world_level) {
+cv::Mat hidden_cells(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConfig& config,
+                     const cv::Mat& material, const PinholeIntrinsics& k,
+                     const Eigen::Isometry3d& T_world_level) {
   const cv::Mat& elevation_m = truth.elevation_m();
   const double min_m = -0.5 * config.cell_m * elevation_m.cols;
   const Eigen::Isometry3d T_level_world = T_world_level.inverse();
   cv::Mat outside(elevation_m.size(), CV_8UC1, cv::Scalar(255));
   for (int row = 0; row < outside.rows; ++row) {
     for (int column = 0; column < outside.cols; ++column) {
-      const Eigen::Vector3d p = T_level_world * Eigen::Vector3d(min_m + (column + 0.5) * config.cell_m,
-                                                                min_m + (row + 0.5) * config.cell_m,
-                                                                static_cast<double>(elevation_m.at<float>(row, column)));
+      const Eigen::Vector3d p =
+          T_level_world * Eigen::Vector3d(min_m + (column + 0.5) * config.cell_m,
+                                          min_m + (row + 0.5) * config.cell_m,
+                                          static_cast<double>(elevation_m.at<float>(row, column)));
       if (!(p.z() > 0)) continue;
       const Eigen::Vector2d px = k.project(p);
       if (!k.contains(px.x(), px.y())) continue;
@@ -111,7 +114,8 @@ TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConf
       const bool residual_near = std::abs(residual_m - config.max_residual_m) < kResidualBand_m;
       const bool slope_far = slope_deg >= config.max_slope_deg + kSlopeBand_deg;
       const bool residual_far = !(residual_m < config.max_residual_m + kResidualBand_m);
-      if ((slope_near || residual_near) && !slope_far && !residual_far) view.at_limit.at<std::uint8_t>(v, u) = 255;
+      if ((slope_near || residual_near) && !slope_far && !residual_far)
+        view.at_limit.at<std::uint8_t>(v, u) = 255;
       const double inside_m = (static_cast<double>(border_px.at<float>(v + 1, u + 1)) - 0.5) * z_m / k.fx_px;
       if (view.safe.at<std::uint8_t>(v, u) != 0 && inside_m >= clearance_m &&
           truth.clearance_m(p.x(), p.y()) >= clearance_m) {
@@ -161,8 +165,8 @@ MaskScore score_mask(const cv::Mat& safe, const TruthView& truth, const cv::Mat&
   return score;
 }
 
-std::vector<Station> stations(const sim::World& world, const sim::SurfaceTruth& truth, double height_m, int count,
-                              double max_tilt_deg, std::uint64_t seed) {
+std::vector<Station> stations(const sim::World& world, const sim::SurfaceTruth& truth, double height_m,
+                              int count, double max_tilt_deg, std::uint64_t seed) {
   constexpr double kAir_m = 2.5;
   constexpr double kWidestView = 0.85;  // tangent of half the image's diagonal and the tilt
   constexpr int kAttempts = 200;

@@ -29,25 +29,27 @@ cv::Mat level_material(const cv::Mat& material, const PinholeIntrinsics& intrins
 
 /// What the truth says of a level view.
 struct TruthView {
-  cv::Mat safe;      ///< CV_8UC1, the ground under the pixel is safe
-  cv::Mat roomy;     ///< CV_8UC1, and so is everything within `clearance_m` of it, all of it inside the view
-  cv::Mat area_m2;   ///< CV_32FC1, ground that a pixel shows; 0 where nothing is known
-  cv::Mat hidden;    ///< CV_8UC1, something that decides the truth here is outside the image: a crown over this ground
+  cv::Mat safe;     ///< CV_8UC1, the ground under the pixel is safe
+  cv::Mat roomy;    ///< CV_8UC1, and so is everything within `clearance_m` of it, all of it inside the view
+  cv::Mat area_m2;  ///< CV_32FC1, ground that a pixel shows; 0 where nothing is known
+  cv::Mat
+      hidden;  ///< CV_8UC1, something that decides the truth here is outside the image: a crown over this ground
   cv::Mat at_limit;  ///< CV_8UC1, slope within 0.5 degrees or residual within 1 cm of the truth's limit
 };
 /// @param material from level_material
 TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConfig& config,
-                     const cv::Mat& level_depth_m, const cv::Mat& material, const PinholeIntrinsics& intrinsics,
-                     const Eigen::Isometry3d& T_world_level, double clearance_m);
+                     const cv::Mat& level_depth_m, const cv::Mat& material,
+                     const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_level,
+                     double clearance_m);
 
 /// Areas in square metres, added up over frames.
 struct MaskScore {
   double called_safe_m2 = 0;
-  double rightly_m2 = 0;            ///< of these truly safe
-  double wrongly_hidden_m2 = 0;     ///< of the others, decided by what is outside the image
-  double wrongly_at_limit_m2 = 0;   ///< of the rest, at the truth's limit
-  double roomy_m2 = 0;              ///< truly safe with the vehicle's clearance
-  double found_m2 = 0;              ///< of these called safe
+  double rightly_m2 = 0;           ///< of these truly safe
+  double wrongly_hidden_m2 = 0;    ///< of the others, decided by what is outside the image
+  double wrongly_at_limit_m2 = 0;  ///< of the rest, at the truth's limit
+  double roomy_m2 = 0;             ///< truly safe with the vehicle's clearance
+  double found_m2 = 0;             ///< of these called safe
   std::map<std::string, double> wrong_by_material_m2;
 
   void add(const MaskScore& other);
@@ -71,7 +73,7 @@ struct Station {
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
 };
 /// Up to `count` cameras with free air of `air_m` below and around; the same seed draws the same ones.
-std::vector<Station> stations(const sim::World& world, const sim::SurfaceTruth& truth, double height_m, int count,
-                              double max_tilt_deg, std::uint64_t seed);
+std::vector<Station> stations(const sim::World& world, const sim::SurfaceTruth& truth, double height_m,
+                              int count, double max_tilt_deg, std::uint64_t seed);
 
 }  // namespace alight::bench

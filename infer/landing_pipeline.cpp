@@ -34,7 +34,8 @@ LandingPipeline::LandingPipeline(const DepthEngineConfig& engine, const LandingC
     : monitor_(engine.health, rig, predictor != nullptr ? DepthMakers::kImageAndLidar : DepthMakers::kLidar),
       engine_(engine, rig, std::move(predictor)),
       selector_(landing.selection, engine_.rig().intrinsics),
-      fused_(landing.fuse ? std::optional<FusedSelector>(std::in_place, landing.grid, selector_) : std::nullopt),
+      fused_(landing.fuse ? std::optional<FusedSelector>(std::in_place, landing.grid, selector_)
+                          : std::nullopt),
       site_source_(landing.site_source),
       tracker_(landing.tracker, selector_) {}
 

@@ -16,14 +16,15 @@ void bind(Binder& b, ElevationGridConfig& c) {
   b.check("size_m", c.size_m <= 1000 * c.cell_m, "must be at most 1000 cells");
   b.field("obstacle_m", c.obstacle_m, "what differs more from a frame's plane is remembered at one sight",
           between(0.02, 5));
-  b.field("moved_m", c.moved_m, "ground that differs more from the remembered one has moved", between(0.02, 10));
+  b.field("moved_m", c.moved_m, "ground that differs more from the remembered one has moved",
+          between(0.02, 10));
   b.field("forget_after_s", c.forget_after_s,
           "an obstacle is forgotten where its place is seen without it, but not sooner", between(0, 3600));
   b.field("max_count", c.max_count, "frames that a mean counts at most", between(1, 10000));
   b.field("max_height_offset_m", c.max_height_offset_m,
           "frames that differ more in height from the grid start it anew", between(0.1, 100));
-  b.field("lidar_half_fov_deg", c.lidar_half_fov_deg,
-          "around the optical axis, where LiDAR returns are due", between(1, 80));
+  b.field("lidar_half_fov_deg", c.lidar_half_fov_deg, "around the optical axis, where LiDAR returns are due",
+          between(1, 80));
   b.field("min_expected_returns", c.min_expected_returns,
           "ground without any return where so many a cell were due is a hazard; 0: off", between(0, 10000));
 }
@@ -36,7 +37,8 @@ ElevationGrid::ElevationGrid(const ElevationGridConfig& config)
       cells_(static_cast<std::size_t>(side_ * side_)) {}
 
 bool ElevationGrid::inside(std::int64_t column, std::int64_t row) const {
-  return column >= first_column_ && row >= first_row_ && column < first_column_ + side_ && row < first_row_ + side_;
+  return column >= first_column_ && row >= first_row_ && column < first_column_ + side_ &&
+         row < first_row_ + side_;
 }
 
 ElevationCell& ElevationGrid::at(std::int64_t column, std::int64_t row) {
@@ -55,8 +57,10 @@ const ElevationCell* ElevationGrid::cell(double east_m, double north_m) const {
 
 /// Moves the window; what enters it anew takes the slots of what leaves it.
 void ElevationGrid::recentre(const Eigen::Vector3d& p_world_camera) {
-  const std::int64_t column = static_cast<std::int64_t>(std::floor(p_world_camera.x() / config_.cell_m)) - side_ / 2;
-  const std::int64_t row = static_cast<std::int64_t>(std::floor(p_world_camera.y() / config_.cell_m)) - side_ / 2;
+  const std::int64_t column =
+      static_cast<std::int64_t>(std::floor(p_world_camera.x() / config_.cell_m)) - side_ / 2;
+  const std::int64_t row =
+      static_cast<std::int64_t>(std::floor(p_world_camera.y() / config_.cell_m)) - side_ / 2;
   if (started_ && column == first_column_ && row == first_row_) return;
   const std::int64_t old_column = first_column_;
   const std::int64_t old_row = first_row_;
@@ -188,9 +192,10 @@ void ElevationGrid::add_returns(const cv::Mat& sparse_m, const PinholeIntrinsics
     for (std::int64_t c = first_column_; c < first_column_ + side_; ++c) {
       ElevationCell& cell = at(c, r);
       if (cell.count == 0 || cell.seen_ns != last_ns_) continue;  // only what this frame has seen
-      const Eigen::Vector3d p = T_camera_world * Eigen::Vector3d((static_cast<double>(c) + 0.5) * config_.cell_m,
-                                                                 (static_cast<double>(r) + 0.5) * config_.cell_m,
-                                                                 static_cast<double>(cell.mean_m) + offset_m_);
+      const Eigen::Vector3d p =
+          T_camera_world * Eigen::Vector3d((static_cast<double>(c) + 0.5) * config_.cell_m,
+                                           (static_cast<double>(r) + 0.5) * config_.cell_m,
+                                           static_cast<double>(cell.mean_m) + offset_m_);
       if (p.z() <= 0 || p.head<2>().norm() > limit * p.z()) continue;
       cell.expected_returns += static_cast<float>(share / (p.z() * p.z()));
     }
@@ -241,7 +246,8 @@ cv::Mat ElevationGrid::hazards(const ElevationRaster& raster) const {
     for (int column = 0; column < out.cols; ++column) {
       const std::int64_t c = raster.first_column + column;
       const std::int64_t r = raster.first_row + row;
-      if (!inside(c, r) || static_cast<double>(at(c, r).expected_returns) < config_.min_expected_returns) continue;
+      if (!inside(c, r) || static_cast<double>(at(c, r).expected_returns) < config_.min_expected_returns)
+        continue;
       float returns = 0;
       for (std::int64_t dr = -1; dr <= 1; ++dr) {
         for (std::int64_t dc = -1; dc <= 1; ++dc)

@@ -86,7 +86,8 @@ class ElevationGrid {
  private:
   void recentre(const Eigen::Vector3d& p_world_camera);
   std::optional<double> offset_to(const ElevationRaster& raster) const;
-  void merge(std::int64_t t_ns, float mean_m, float top_m, float bottom_m, bool obstacle, ElevationCell& cell) const;
+  void merge(std::int64_t t_ns, float mean_m, float top_m, float bottom_m, bool obstacle,
+             ElevationCell& cell) const;
   bool inside(std::int64_t column, std::int64_t row) const;
   ElevationCell& at(std::int64_t column, std::int64_t row);
   const ElevationCell& at(std::int64_t column, std::int64_t row) const;

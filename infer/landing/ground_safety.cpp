@@ -28,8 +28,8 @@ cv::Mat lowest_nearby(const ElevationRaster& raster, int reach) {
 
 /// Takes out patches of flat ground most of whose border falls away. A border cell counts where the ground beyond it is
 /// known: at the edge of the view nobody knows how the ground goes on.
-void remove_platforms(const ElevationRaster& raster, const GroundShape& shape, const PlaneFitConfig& plane_fit,
-                      const GroundSafetyConfig& config, cv::Mat& safe) {
+void remove_platforms(const ElevationRaster& raster, const GroundShape& shape,
+                      const PlaneFitConfig& plane_fit, const GroundSafetyConfig& config, cv::Mat& safe) {
   struct Border {
     int seen = 0;
     int falling = 0;
@@ -98,14 +98,14 @@ GroundMap judge_ground(ElevationRaster raster, const cv::Mat& hazards, const Pla
   ground.raster = std::move(raster);
   if (ground.empty()) return ground;
   ground.shape = fit_planes(ground.raster, plane_fit);
-  ground.safe = (ground.shape.gradient < std::tan(max_slope_rad)) &
-                (ground.shape.residual_m < plane_fit.max_residual_m) & ground.shape.known;
-  if (safety.platform_height_m > 0)
-    remove_platforms(ground.raster, ground.shape, plane_fit, safety, ground.safe);
-  if (!hazards.empty()) ground.safe.setTo(0, hazards);
+  cv::Mat flat = (ground.shape.gradient < std::tan(max_slope_rad)) &
+                 (ground.shape.residual_m < plane_fit.max_residual_m) & ground.shape.known;
+  if (safety.platform_height_m > 0) remove_platforms(ground.raster, ground.shape, plane_fit, safety, flat);
+  cv::Mat hazard = ground.shape.known & ~flat;
+  if (!hazards.empty()) hazard |= hazards;
   const int guard = cells(safety.guard_m, ground.raster.cell_m);
-  if (guard > 0)
-    cv::erode(ground.safe, ground.safe, disc(guard), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  if (guard > 0) cv::dilate(hazard, hazard, disc(guard), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  ground.safe = flat & ~hazard;
   ground.radius_m = free_radius_m(ground.safe, ground.raster.cell_m);
   return ground;
 }

@@ -22,8 +22,7 @@ std::vector<Offset> disc(double radius_m, double cell_m, int reach) {
   for (int row = -reach; row <= reach; ++row) {
     for (int column = -reach; column <= reach; ++column) {
       if (std::hypot(row, column) * cell_m > radius_m + 1e-9) continue;
-      offsets.push_back(
-          {row, column, static_cast<float>(column * cell_m), static_cast<float>(row * cell_m)});
+      offsets.push_back({row, column, static_cast<float>(column * cell_m), static_cast<float>(row * cell_m)});
     }
   }
   return offsets;

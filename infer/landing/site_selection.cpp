@@ -28,8 +28,8 @@ cv::Mat free_radius_px(const cv::Mat& safe) {
 }
 
 /// Mean confidence over a site, as the camera itself sees it.
-double confidence_on(const LandingSite& site, const cv::Mat& confidence, const Eigen::Matrix3d& R_level_camera,
-                     const PinholeIntrinsics& intrinsics) {
+double confidence_on(const LandingSite& site, const cv::Mat& confidence,
+                     const Eigen::Matrix3d& R_level_camera, const PinholeIntrinsics& intrinsics) {
   const Eigen::Vector3d p_camera = R_level_camera.transpose() * site.p_level;
   const Eigen::Vector2d px = intrinsics.project(p_camera);
   cv::Mat circle = cv::Mat::zeros(confidence.size(), CV_8UC1);
@@ -88,12 +88,13 @@ SiteSelector::SiteSelector(const SiteSelectionConfig& config, const PinholeIntri
 /// The longer one makes the smaller circle.
 double SiteSelector::focal_px() const { return std::max(intrinsics_.fx_px, intrinsics_.fy_px); }
 
-ElevationRaster SiteSelector::raster_of(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera) const {
+ElevationRaster SiteSelector::raster_of(const cv::Mat& depth_m,
+                                        const Eigen::Isometry3d& T_world_camera) const {
   // Cells hold at least one pixel even where the view slants: from high up they grow with the pixels.
   constexpr double kPixelsPerCell = 1.6;
   const double mean_m = cv::mean(depth_m, depth_m > 0)[0];
-  const double cell_m =
-      std::max(config_.plane_fit.cell_m, kPixelsPerCell * mean_m / std::min(intrinsics_.fx_px, intrinsics_.fy_px));
+  const double cell_m = std::max(config_.plane_fit.cell_m,
+                                 kPixelsPerCell * mean_m / std::min(intrinsics_.fx_px, intrinsics_.fy_px));
   return rasterize(depth_m, intrinsics_, T_world_camera, cell_m, config_.plane_fit.reach_m);
 }
 
@@ -132,7 +133,8 @@ SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Matrix3d
   return select(depth_m, T_world_camera);
 }
 
-SiteSelection SiteSelector::judge(ElevationRaster raster, const cv::Mat& hazards, const cv::Mat& level_depth_m,
+SiteSelection SiteSelector::judge(ElevationRaster raster, const cv::Mat& hazards,
+                                  const cv::Mat& level_depth_m,
                                   const Eigen::Isometry3d& T_world_camera) const {
   SiteSelection out;
   out.R_level_camera = level_rotation(T_world_camera.linear());
@@ -163,8 +165,7 @@ void SiteSelector::decide_by_planes(ElevationRaster raster, const cv::Mat& hazar
 /// Statuses and the order of the sites.
 void SiteSelector::conclude(SiteSelection& out) const {
   if (!out.largest) return;
-  out.status =
-      out.largest->radius_m > config_.min_radius_m ? SiteStatus::kFound : SiteStatus::kTooSmall;
+  out.status = out.largest->radius_m > config_.min_radius_m ? SiteStatus::kFound : SiteStatus::kTooSmall;
   if (!out.found()) {
     out.sites.clear();
     return;
@@ -226,7 +227,8 @@ void SiteSelector::show_ground(const Eigen::Isometry3d& T_world_level, SiteSelec
   }
   // In cells, from the raster's corner; the level camera's optical axis has no horizontal part.
   const double per_m = 1 / raster.cell_m;
-  const Eigen::Vector2d corner(static_cast<double>(raster.first_column), static_cast<double>(raster.first_row));
+  const Eigen::Vector2d corner(static_cast<double>(raster.first_column),
+                               static_cast<double>(raster.first_row));
   const Eigen::Vector2f camera = (T_world_level.translation().head<2>() * per_m - corner).cast<float>();
   const Eigen::Matrix2f turn = (T_world_level.linear().topLeftCorner<2, 2>() * per_m).cast<float>();
   const auto cell_m = static_cast<float>(raster.cell_m);

@@ -111,8 +111,8 @@ class SiteSelector {
   const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
 
  private:
-  void decide_by_planes(ElevationRaster raster, const cv::Mat& hazards, const Eigen::Isometry3d& T_world_level,
-                        SiteSelection& out) const;
+  void decide_by_planes(ElevationRaster raster, const cv::Mat& hazards,
+                        const Eigen::Isometry3d& T_world_level, SiteSelection& out) const;
   void decide_by_derivatives(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const;
   void show_ground(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const;
   LandingSite site_on(const GroundMap& ground, const cv::Point& cell,

@@ -29,8 +29,7 @@ class ElevationGridTest : public testing::Test {
     for (int v = 0; v < depth.rows; ++v) {
       for (int u = 0; u < depth.cols; ++u) {
         const Eigen::Vector3d ground = T * (k_.ray(u, v) * T.translation().z());
-        depth.at<float>(v, u) =
-            static_cast<float>(T.translation().z() - height(ground.x(), ground.y()));
+        depth.at<float>(v, u) = static_cast<float>(T.translation().z() - height(ground.x(), ground.y()));
       }
     }
     return depth;
@@ -194,9 +193,11 @@ TEST_F(ElevationGridTest, GroundWithoutLidarReturnsIsAHazard) {
 TEST_F(ElevationGridTest, RefusesOtherCellsAndGoingBackInTime) {
   ElevationGrid grid({});
   frame(grid, camera_at(0, 0, 20), flat_);
-  const ElevationRaster coarse = rasterize(depth_of(camera_at(0, 0, 20), flat_), k_, camera_at(0, 0, 20), 0.5, 60);
+  const ElevationRaster coarse =
+      rasterize(depth_of(camera_at(0, 0, 20), flat_), k_, camera_at(0, 0, 20), 0.5, 60);
   EXPECT_THROW(grid.add(t_ns_ + 1, coarse, fit_planes(coarse, {}), {0, 0, 20}), std::invalid_argument);
-  const ElevationRaster raster = rasterize(depth_of(camera_at(0, 0, 20), flat_), k_, camera_at(0, 0, 20), 0.2, 60);
+  const ElevationRaster raster =
+      rasterize(depth_of(camera_at(0, 0, 20), flat_), k_, camera_at(0, 0, 20), 0.2, 60);
   EXPECT_THROW(grid.add(t_ns_ - 1, raster, fit_planes(raster, {}), {0, 0, 20}), std::invalid_argument);
 }
 

@@ -112,7 +112,8 @@ TEST(SiteSelector, CircleOfASquareFieldIsItsIncircle) {
 
 TEST(SiteSelector, ImageBorderIsUnsafe) {
   const PinholeIntrinsics k = camera_of(201, 151);
-  const SiteSelection selection = SiteSelector(derivatives(), k).select(level_ground(k, 44), kDown);  // baseline 5 px
+  const SiteSelection selection =
+      SiteSelector(derivatives(), k).select(level_ground(k, 44), kDown);  // baseline 5 px
   ASSERT_TRUE(selection.largest);
   EXPECT_NEAR(selection.largest->centre_px.y(), 75, 0.1);
   EXPECT_NEAR(selection.largest->radius_px, (151 - 2 * 7) / 2.0, 0.01);
