@@ -1,6 +1,8 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/scene.hpp"
+#include "geometry/reprojection.hpp"
+#include "infer/landing/fused_selection.hpp"
 #include "infer/landing/site_selection.hpp"
 
 namespace alight {
@@ -12,15 +14,77 @@ void measure_terrain_352(benchmark::State& state) {
 }
 BENCHMARK(measure_terrain_352)->Unit(benchmark::kMillisecond);
 
-void select_site_352(benchmark::State& state) {
+Eigen::Isometry3d tilted_camera() {
+  Eigen::Isometry3d T_world_camera(Eigen::Translation3d(3, 4, 20));
+  Eigen::Matrix3d R_world_down;
+  R_world_down << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.linear() =
+      R_world_down * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  return T_world_camera;
+}
+
+void rotate_depth_352(benchmark::State& state) {
+  const cv::Mat depth = bench::ground();
+  const Eigen::Matrix3d R_level_camera = level_rotation(tilted_camera().linear());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(rotate_depth(depth, bench::paper_rig().intrinsics, R_level_camera));
+}
+BENCHMARK(rotate_depth_352)->Unit(benchmark::kMillisecond);
+
+void rasterize_352(benchmark::State& state) {
+  const cv::Mat depth = bench::ground();
+  for (auto _ : state)
+    benchmark::DoNotOptimize(rasterize(depth, bench::paper_rig().intrinsics, tilted_camera(), 0.2, 60));
+}
+BENCHMARK(rasterize_352)->Unit(benchmark::kMillisecond);
+
+void judge_ground_352(benchmark::State& state) {
+  const ElevationRaster raster =
+      rasterize(bench::ground(), bench::paper_rig().intrinsics, tilted_camera(), 0.2, 60);
+  for (auto _ : state) benchmark::DoNotOptimize(judge_ground(raster, {}, {}, {}, 0.17));
+}
+BENCHMARK(judge_ground_352)->Unit(benchmark::kMillisecond);
+
+/// One frame of a hovering vehicle into the grid, its raster and planes made by site selection.
+void update_grid_352(benchmark::State& state) {
+  const ElevationRaster raster =
+      rasterize(bench::ground(), bench::paper_rig().intrinsics, tilted_camera(), 0.2, 60);
+  const GroundShape shape = fit_planes(raster, {});
+  const cv::Mat returns = bench::ground();
+  ElevationGrid grid({});
+  std::int64_t t_ns = 0;
+  for (auto _ : state) {
+    t_ns += 50'000'000;
+    const double x_m = 3 + 0.1 * static_cast<double>(t_ns / 50'000'000 % 100);  // 2 m/s: the window moves
+    grid.add(t_ns, raster, shape, {x_m, 4, 20});
+    grid.add_returns(returns, bench::paper_rig().intrinsics, tilted_camera());
+  }
+}
+BENCHMARK(update_grid_352)->Unit(benchmark::kMillisecond);
+
+/// The whole of the fused decision beside the frame's: grid update and judging all that is remembered.
+void select_fused_352(benchmark::State& state) {
   const SiteSelector selector({}, bench::paper_rig().intrinsics);
   const cv::Mat depth = bench::ground();
-  Eigen::Matrix3d R_world_camera;
-  R_world_camera << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  R_world_camera = R_world_camera * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  for (auto _ : state) benchmark::DoNotOptimize(selector.select(depth, R_world_camera));
+  const SiteSelection frame = selector.select(depth, tilted_camera());
+  FusedSelector fused({}, selector);
+  std::int64_t t_ns = 0;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(fused.update(t_ns += 50'000'000, depth, depth, tilted_camera(), frame));
 }
-BENCHMARK(select_site_352)->Unit(benchmark::kMillisecond);
+BENCHMARK(select_fused_352)->Unit(benchmark::kMillisecond);
+
+void select_site(benchmark::State& state, LandingMethod method) {
+  SiteSelectionConfig config;
+  config.method = method;
+  const SiteSelector selector(config, bench::paper_rig().intrinsics);
+  const cv::Mat depth = bench::ground();
+  for (auto _ : state) benchmark::DoNotOptimize(selector.select(depth, tilted_camera()));
+}
+void select_site_planes_352(benchmark::State& state) { select_site(state, LandingMethod::kPlaneFit); }
+void select_site_derivatives_352(benchmark::State& state) { select_site(state, LandingMethod::kDerivatives); }
+BENCHMARK(select_site_planes_352)->Unit(benchmark::kMillisecond);
+BENCHMARK(select_site_derivatives_352)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace alight

@@ -65,20 +65,29 @@ cv::Mat rotate_depth(const cv::Mat& depth_source_m, const PinholeIntrinsics& int
                      const Eigen::Matrix3d& R_target_source) {
   CV_Assert(depth_source_m.type() == CV_32FC1 && depth_source_m.size() == intrinsics.size());
   const Eigen::Matrix3d R_source_target = R_target_source.transpose();
+  // A row's rays differ by one step, and what a source ray's depth becomes by one step a column and a row.
+  const Eigen::Vector3d step = R_source_target.col(0) / intrinsics.fx_px;
+  const Eigen::Vector3d down = R_target_source.row(2);
+  const double down_u = down.x() / intrinsics.fx_px;
+  const double down_v = down.y() / intrinsics.fy_px;
+  const double down_0 = down.dot(intrinsics.ray(0, 0));
   cv::Mat depth_target_m = cv::Mat::zeros(intrinsics.size(), CV_32FC1);
   for (int v = 0; v < depth_target_m.rows; ++v) {
+    const Eigen::Vector3d first = R_source_target * intrinsics.ray(0, v);
+    auto* const target = depth_target_m.ptr<float>(v);
     for (int u = 0; u < depth_target_m.cols; ++u) {
-      const Eigen::Vector3d ray_source = R_source_target * intrinsics.ray(u, v);
-      if (ray_source.z() <= 0) continue;
-      const Eigen::Vector2d pixel = intrinsics.project(ray_source);
-      if (!intrinsics.contains(pixel.x(), pixel.y())) continue;
-      const int u_source = static_cast<int>(pixel.x() + 0.5);
-      const int v_source = static_cast<int>(pixel.y() + 0.5);
-      const double depth_source = static_cast<double>(depth_source_m.at<float>(v_source, u_source));
+      const double z = first.z() + u * step.z();
+      if (z <= 0) continue;
+      const double u_px = intrinsics.fx_px * (first.x() + u * step.x()) / z + intrinsics.cx_px;
+      const double v_px = intrinsics.fy_px * (first.y() + u * step.y()) / z + intrinsics.cy_px;
+      if (!intrinsics.contains(u_px, v_px)) continue;
+      const int u_source = static_cast<int>(u_px + 0.5);
+      const int v_source = static_cast<int>(v_px + 0.5);
       // The depth of the measured point itself: the target ray passes half a pixel beside it, and on a tilted view
       // that would be centimetres of height.
-      const double z_target = R_target_source.row(2).dot(intrinsics.ray(u_source, v_source)) * depth_source;
-      depth_target_m.at<float>(v, u) = static_cast<float>(std::max(z_target, 0.0));
+      const double z_target = (down_0 + down_u * u_source + down_v * v_source) *
+                              static_cast<double>(depth_source_m.at<float>(v_source, u_source));
+      target[u] = static_cast<float>(std::max(z_target, 0.0));
     }
   }
   return depth_target_m;

@@ -6,6 +6,11 @@ namespace alight {
 
 void bind(Binder& b, LandingConfig& c) {
   b.section("selection", c.selection, "what safe ground is");
+  b.field("fuse", c.fuse, "remember the ground over frames in an elevation grid");
+  b.choice("site_source", c.site_source, {{"frame", SiteSource::kFrame}, {"fused", SiteSource::kFused}},
+           "frame: this frame's depth decides; fused: the remembered ground; both are logged");
+  b.check("site_source", c.fuse || c.site_source == SiteSource::kFrame, "fused needs fuse: true");
+  b.section("grid", c.grid, "what is remembered of the ground");
   b.section("tracker", c.tracker, "when a site counts");
 }
 
@@ -13,8 +18,8 @@ std::string FrameReport::site_reason() const {
   const bool failed = health.state == HealthState::kFailed;
   if (failed && !depth.depth_m.empty()) return "sensors failed: " + describe(health);
   if (!selection) return "no trusted depth: " + depth.reason;
-  if (decision.site && !selection->found()) return "previous site kept";
-  return describe(*selection);
+  if (decision.site && !decisive().found()) return "previous site kept";
+  return describe(decisive());
 }
 
 ImageSite in_camera_image(const LandingSite& site, const Eigen::Matrix3d& R_level_camera,
@@ -29,6 +34,9 @@ LandingPipeline::LandingPipeline(const DepthEngineConfig& engine, const LandingC
     : monitor_(engine.health, rig, predictor != nullptr ? DepthMakers::kImageAndLidar : DepthMakers::kLidar),
       engine_(engine, rig, std::move(predictor)),
       selector_(landing.selection, engine_.rig().intrinsics),
+      fused_(landing.fuse ? std::optional<FusedSelector>(std::in_place, landing.grid, selector_)
+                          : std::nullopt),
+      site_source_(landing.site_source),
       tracker_(landing.tracker, selector_) {}
 
 std::vector<FrameReport> LandingPipeline::add(const LogMessage& message) {
@@ -72,8 +80,13 @@ FrameReport LandingPipeline::report(DepthResult depth) {
   }
   const StageTimer timer(frame.depth.stages_ms, "site");
   const Eigen::Isometry3d& T_world_camera = *frame.depth.T_world_camera;
-  frame.selection = selector_.select(frame.depth.depth_m, T_world_camera.linear());
-  frame.decision = tracker_.update(frame.depth.t_ns, *frame.selection, T_world_camera);
+  frame.selection = selector_.select(frame.depth.depth_m, T_world_camera);
+  if (fused_) {
+    frame.fused = fused_->update(frame.depth.t_ns, frame.depth.depth_m, frame.depth.sparse_m, T_world_camera,
+                                 *frame.selection);
+    frame.from_fused = site_source_ == SiteSource::kFused;
+  }
+  frame.decision = tracker_.update(frame.depth.t_ns, frame.decisive(), T_world_camera);
   if (frame.decision.site) {
     frame.image_site = in_camera_image(frame.decision.site->circle, frame.selection->R_level_camera,
                                        engine_.rig().intrinsics);

@@ -9,14 +9,24 @@
 #include "configs/config_reader.hpp"
 #include "infer/depth_engine.hpp"
 #include "infer/health/health_monitor.hpp"
+#include "infer/landing/fused_selection.hpp"
 #include "infer/landing/site_selection.hpp"
 #include "infer/landing/site_tracker.hpp"
 
 namespace alight {
 
+/// Which decision the tracker follows. Both are made and logged unless the grid is off.
+enum class SiteSource {
+  kFrame,  ///< what this frame's depth says (the paper)
+  kFused,  ///< what all frames together know of the ground
+};
+
 /// What makes a landing site. Files: configs/landing/*.yaml
 struct LandingConfig {
   SiteSelectionConfig selection;
+  bool fuse = true;  ///< keep the elevation grid; needed for site_source fused
+  SiteSource site_source = SiteSource::kFrame;
+  ElevationGridConfig grid;
   SiteTrackerConfig tracker;
 };
 void bind(Binder& b, LandingConfig& c);
@@ -31,11 +41,15 @@ struct ImageSite {
 /// Everything known about one left image.
 struct FrameReport {
   DepthResult depth;
-  std::optional<SiteSelection> selection;  ///< absent without trusted depth
+  std::optional<SiteSelection> selection;  ///< of this frame's depth; absent without trusted depth
+  std::optional<SiteSelection> fused;      ///< of the elevation grid; absent as above, or if it is not kept
   SiteDecision decision;
   std::optional<ImageSite> image_site;  ///< decision.site in the image
   HealthReport health;
 
+  /// The selection that `decision` follows.
+  const SiteSelection& decisive() const { return from_fused ? *fused : *selection; }
+  bool from_fused = false;
   /// Why there is no site, or what the site is.
   std::string site_reason() const;
 };
@@ -68,6 +82,8 @@ class LandingPipeline {
   HealthReport health_;
   DepthEngine engine_;
   SiteSelector selector_;
+  std::optional<FusedSelector> fused_;
+  SiteSource site_source_;
   SiteTracker tracker_;
   std::optional<std::int64_t> last_ns_;
 };

@@ -22,6 +22,19 @@ Json holdout_json(const HoldoutScores& holdout, double value) {
   return holdout.points > 0 ? number(value) : Json(nullptr);
 }
 
+/// The circles that a decision found, the best first.
+Json sites_json(const SiteSelection& selection) {
+  Json sites = Json::array();
+  for (const LandingSite& site : selection.sites) {
+    Json json;
+    json["p_world"] = {number(site.p_world.x()), number(site.p_world.y()), number(site.p_world.z())};
+    json["radius_m"] = number(site.radius_m);
+    json["score"] = number(site.score);
+    sites.push_back(json);
+  }
+  return sites;
+}
+
 Json site_json(const FrameReport& frame) {
   if (!frame.decision.site || !frame.image_site) return nullptr;
   const TrackedSite& site = *frame.decision.site;
@@ -86,6 +99,8 @@ std::string to_json_line(const FrameReport& frame, const cv::Rect& crop, bool wi
   json["holdout_rms_relative"] = holdout_json(depth.holdout, depth.holdout.rms_relative);
   json["holdout_verdict"] = name(depth.holdout_verdict);
   json["site"] = site_json(frame);
+  json["frame_sites"] = frame.selection ? sites_json(*frame.selection) : Json(nullptr);
+  json["fused_sites"] = frame.fused ? sites_json(*frame.fused) : Json(nullptr);
   json["site_reason"] = frame.site_reason();
   json["wander"] = frame.decision.wander;
   json["health"] = to_json(frame.health);

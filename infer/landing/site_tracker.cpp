@@ -61,7 +61,13 @@ SiteDecision SiteTracker::update(std::int64_t t_ns, const SiteSelection& selecti
   T_world_level.linear() = T_world_camera.linear() * selection.R_level_camera.transpose();
   std::optional<TrackedSite> now = keep(selection, T_world_level);
   if (!now && selection.found()) {
-    now = TrackedSite{*selection.largest, T_world_level * selection.largest->p_level, 1, false};
+    // The best one in view: only there can it be confirmed.
+    for (const LandingSite& site : selection.sites) {
+      const Eigen::Vector2d& px = site.centre_px;
+      if (site.p_level.z() <= 0 || !selector_.intrinsics().contains(px.x(), px.y())) continue;
+      now = TrackedSite{site, T_world_level * site.p_level, 1, false};
+      break;
+    }
   }
   site_ = now;
   return conclude(t_ns, std::move(now));

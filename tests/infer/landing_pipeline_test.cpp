@@ -20,8 +20,9 @@ DepthEngineConfig small_engine() {
   return config;
 }
 
-std::vector<FrameReport> fly(const std::vector<LogMessage>& messages, std::shared_ptr<DepthPredictor> net) {
-  LandingPipeline pipeline(small_engine(), {}, fakes::small_rig(), std::move(net));
+std::vector<FrameReport> fly(const std::vector<LogMessage>& messages, std::shared_ptr<DepthPredictor> net,
+                             const LandingConfig& landing = {}) {
+  LandingPipeline pipeline(small_engine(), landing, fakes::small_rig(), std::move(net));
   std::vector<FrameReport> frames;
   const auto take = [&](std::vector<FrameReport> more) {
     for (FrameReport& frame : more) frames.push_back(std::move(frame));
@@ -43,6 +44,30 @@ TEST(LandingPipeline, LevelGroundIsAcceptedInTheFifthFrame) {
     EXPECT_NEAR(frames[i].decision.site->p_world.z(), -kHeight_m, 0.05);
     EXPECT_NEAR(frames[i].image_site->radius_px, frames[i].decision.site->circle.radius_px, 1.0);
   }
+}
+
+TEST(LandingPipeline, BothDecisionsAreMadeAndTheConfiguredOneIsFollowed) {
+  fakes::LevelWorld world(kHeight_m);
+  for (const SiteSource source : {SiteSource::kFrame, SiteSource::kFused}) {
+    LandingConfig landing;
+    landing.site_source = source;
+    const auto frames = fly(fakes::flight(world, {1.0}),
+                            std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }), landing);
+    ASSERT_GT(frames.size(), 8U);
+    for (const FrameReport& frame : frames) {
+      ASSERT_TRUE(frame.selection && frame.fused);
+      EXPECT_EQ(&frame.decisive(), source == SiteSource::kFused ? &*frame.fused : &*frame.selection);
+    }
+    ASSERT_TRUE(frames.back().decision.site) << frames.back().site_reason();
+    EXPECT_TRUE(frames.back().decision.site->accepted);
+    EXPECT_NEAR(frames.back().decision.site->p_world.z(), -kHeight_m, 0.05);
+  }
+  LandingConfig forgetful;
+  forgetful.fuse = false;
+  const auto frames = fly(fakes::flight(world, {0.5}),
+                          std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }), forgetful);
+  EXPECT_FALSE(frames.front().fused);
+  EXPECT_THROW(parse_config<LandingConfig>("{fuse: false, site_source: fused}", "x"), ConfigError);
 }
 
 TEST(LandingPipeline, NoTrustedDepthNoSiteAndWanderAfterFiveSeconds) {
