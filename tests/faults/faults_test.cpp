@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/frames.hpp"
-#include "tests/faults/fault_injector.hpp"
+#include "sim/fault_injector.hpp"
 #include "tests/faults/simulated_truth.hpp"
 #ifdef ALIGHT_FAULTS_WITH_NETWORK
 #include "infer/network_predictor.hpp"
@@ -20,6 +20,11 @@
 
 namespace alight {
 namespace {
+
+using sim::all_faults;
+using sim::Fault;
+using sim::Messages;
+using sim::TimedMessage;
 
 namespace fs = std::filesystem;
 
@@ -156,7 +161,7 @@ TEST_F(Faults, AHealthyFlightHasNoFindingAndAcceptsSafeSites) {
 
 TEST_P(Faults, LidarAlone) {
   const Fault& fault = fault_of(GetParam());
-  const Outcome outcome = fly(fault.inject(truth_->messages(), fault_ns()), &fault, nullptr);
+  const Outcome outcome = fly(sim::inject(fault, truth_->messages(), fault_ns()), &fault, nullptr);
   row("LiDAR alone", fault.name, outcome);
   expect_noticed(fault, lidar_only_state(fault), outcome);
 }
@@ -204,7 +209,7 @@ TEST_P(Faults, ShippedNetwork) {
   if (!thorough() && !reaches_the_network(fault)) {
     GTEST_SKIP() << "flown by scripts/faults.sh (ALIGHT_FAULTS_THOROUGH=1)";
   }
-  const Messages flight = shortened(fault.inject(truth_->messages(), fault_ns()), fault_ns());
+  const Messages flight = shortened(sim::inject(fault, truth_->messages(), fault_ns()), fault_ns());
   const Outcome outcome = fly(flight, &fault, shipped_network(truth_->rig()));
   row("network", fault.name, outcome);
   expect_noticed(fault, fault.state, outcome);
