@@ -72,7 +72,7 @@ FrameReport LandingPipeline::report(DepthResult depth) {
   }
   const StageTimer timer(frame.depth.stages_ms, "site");
   const Eigen::Isometry3d& T_world_camera = *frame.depth.T_world_camera;
-  frame.selection = selector_.select(frame.depth.depth_m, T_world_camera.linear());
+  frame.selection = selector_.select(frame.depth.depth_m, T_world_camera);
   frame.decision = tracker_.update(frame.depth.t_ns, *frame.selection, T_world_camera);
   if (frame.decision.site) {
     frame.image_site = in_camera_image(frame.decision.site->circle, frame.selection->R_level_camera,

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
-#include "infer/landing/overhang.hpp"
+#include "infer/landing/derivative_safety.hpp"
 
 namespace alight {
 namespace {
-
-cv::Mat square(int side_px) { return cv::getStructuringElement(cv::MORPH_RECT, {side_px, side_px}); }
 
 /// Distance of every safe pixel's centre to the edge of the nearest unsafe pixel; beyond the image all is unsafe.
 cv::Mat free_radius_px(const cv::Mat& safe) {
@@ -27,24 +27,50 @@ cv::Mat free_radius_px(const cv::Mat& safe) {
   return cv::max(radius, 0.0);
 }
 
+/// Mean confidence over a site, as the camera itself sees it.
+double confidence_on(const LandingSite& site, const cv::Mat& confidence, const Eigen::Matrix3d& R_level_camera,
+                     const PinholeIntrinsics& intrinsics) {
+  const Eigen::Vector3d p_camera = R_level_camera.transpose() * site.p_level;
+  const Eigen::Vector2d px = intrinsics.project(p_camera);
+  cv::Mat circle = cv::Mat::zeros(confidence.size(), CV_8UC1);
+  cv::circle(circle, {static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y()))},
+             static_cast<int>(site.radius_m * intrinsics.fx_px / p_camera.z()), cv::Scalar(255), cv::FILLED);
+  return cv::countNonZero(circle) > 0 ? cv::mean(confidence, circle)[0] : 0.0;
+}
+
 }  // namespace
 
 void bind(Binder& b, SiteSelectionConfig& c) {
-  b.section("terrain", c.terrain, "how the shape of the ground is measured");
+  b.choice("method", c.method,
+           {{"plane_fit", LandingMethod::kPlaneFit}, {"derivatives", LandingMethod::kDerivatives}},
+           "plane_fit: planes on discs of ground, in metres; derivatives: of the depth image, the paper's");
   b.field("max_slope_deg", c.max_slope_deg, "steepest safe ground", between(0.1, 60));
-  b.field("max_roughness_deg", c.max_roughness_deg, "largest safe change of slope", between(0.1, 60));
-  b.field("speck_max_area_m2", c.speck_max_area_m2, "a smaller unsafe patch may be noise; 0: none is",
-          between(0, 10));
+  b.section("plane_fit", c.plane_fit, "plane_fit: over which ground a plane is laid");
+  b.section("ground", c.ground, "plane_fit: what else makes ground unsafe");
+  b.section("terrain", c.terrain, "derivatives: how the shape of the ground is measured");
+  b.field("max_roughness_deg", c.max_roughness_deg, "derivatives: largest safe change of slope",
+          between(0.1, 60));
+  b.field("speck_max_area_m2", c.speck_max_area_m2,
+          "derivatives: a smaller unsafe patch may be noise; 0: none is", between(0, 10));
   b.field("speck_max_excess", c.speck_max_excess, "if it nowhere exceeds this multiple of a limit",
           between(1, 10));
-  b.field("erode_px", c.erode_px, "side of the square that erodes the safe mask; 1: none", between(1, 99));
-  b.field("dilate_px", c.dilate_px, "side of the square that dilates it again; 1: none", between(1, 99));
+  b.field("erode_px", c.erode_px, "derivatives: side of the square that erodes the safe mask; 1: none",
+          between(1, 99));
+  b.field("dilate_px", c.dilate_px, "derivatives: side of the square that dilates it again; 1: none",
+          between(1, 99));
   b.check("dilate_px", c.dilate_px <= c.erode_px,
           "must not exceed erode_px: it would make unsafe ground safe");
   b.field("overhang_clearance_m", c.overhang_clearance_m,
-          "ground below obstacles that hang higher over it is unsafe; 0: off", between(0, 100));
+          "derivatives: ground below obstacles that hang higher over it is unsafe; 0: off", between(0, 100));
+  b.field("min_confidence", c.min_confidence, "depth with less confidence (0..1) is unknown", between(0, 1));
   b.field("min_radius_m", c.min_radius_m, "a site has to be larger than this", between(0.1, 100));
-  b.field("margin_m", c.margin_m, "taken off every radius", between(0, 100));
+  b.field("vehicle_radius_m", c.vehicle_radius_m, "from the vehicle's middle to the tips of its propellers",
+          between(0.05, 20));
+  b.check("min_radius_m", c.min_radius_m >= c.vehicle_radius_m,
+          "must be at least vehicle_radius_m, or the vehicle does not fit into a site");
+  b.field("margin_m", c.margin_m, "taken off every radius: uncertainty of where the vehicle comes down",
+          between(0, 100));
+  b.section("ranking", c.ranking, "which of several sites is the best");
 }
 
 std::string describe(const SiteSelection& selection) {
@@ -62,56 +88,192 @@ SiteSelector::SiteSelector(const SiteSelectionConfig& config, const PinholeIntri
 /// The longer one makes the smaller circle.
 double SiteSelector::focal_px() const { return std::max(intrinsics_.fx_px, intrinsics_.fy_px); }
 
-/// Patches that touch the unknown are kept unsafe: nobody knows how they go on.
-void SiteSelector::forgive_specks(const Terrain& terrain, const cv::Mat& level_depth_m, cv::Mat& safe) const {
-  struct Patch {
-    double area_m2 = 0;
-    float excess = 0;
-  };
-  cv::Mat labels;
-  const int count = cv::connectedComponents(~safe, labels, 8, CV_32S);  // the unknown is part of the patches
-  std::vector<Patch> patches(static_cast<std::size_t>(count));
-  const float slope_limit = static_cast<float>(to_radians(config_.max_slope_deg));
-  const float roughness_limit = static_cast<float>(to_radians(config_.max_roughness_deg));
-  for (int v = 0; v < safe.rows; ++v) {
-    for (int u = 0; u < safe.cols; ++u) {
-      const int label = labels.at<int>(v, u);
-      if (label == 0) continue;
-      Patch& patch = patches[static_cast<std::size_t>(label)];
-      const double side_m = static_cast<double>(level_depth_m.at<float>(v, u)) / focal_px();
-      const bool known = terrain.known.at<std::uint8_t>(v, u) != 0;
-      patch.area_m2 += known ? side_m * side_m : std::numeric_limits<double>::infinity();
-      patch.excess = std::max({patch.excess, terrain.slope_rad.at<float>(v, u) / slope_limit,
-                               terrain.roughness_rad.at<float>(v, u) / roughness_limit});
+ElevationRaster SiteSelector::raster_of(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera) const {
+  // Cells hold at least one pixel even where the view slants: from high up they grow with the pixels.
+  constexpr double kPixelsPerCell = 1.6;
+  const double mean_m = cv::mean(depth_m, depth_m > 0)[0];
+  const double cell_m =
+      std::max(config_.plane_fit.cell_m, kPixelsPerCell * mean_m / std::min(intrinsics_.fx_px, intrinsics_.fy_px));
+  return rasterize(depth_m, intrinsics_, T_world_camera, cell_m, config_.plane_fit.reach_m);
+}
+
+SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera,
+                                   const cv::Mat& confidence) const {
+  cv::Mat trusted_m = depth_m;
+  if (!confidence.empty()) {
+    if (confidence.type() != CV_32FC1 || confidence.size() != depth_m.size())
+      throw std::invalid_argument("SiteSelector: confidence must be CV_32FC1 of the depth's size");
+    trusted_m = depth_m.clone();
+    trusted_m.setTo(0, confidence < config_.min_confidence);
+  }
+  SiteSelection out;
+  // 2) What a camera with roll and pitch zero sees.
+  out.R_level_camera = level_rotation(T_world_camera.linear());
+  out.level_depth_m = rotate_depth(trusted_m, intrinsics_, out.R_level_camera);
+  Eigen::Isometry3d T_world_level = T_world_camera;
+  T_world_level.linear() = T_world_camera.linear() * out.R_level_camera.transpose();
+  // 3) Slope and roughness. 4) Circles, in metres: over several heights the largest in pixels may be another one.
+  if (config_.method == LandingMethod::kPlaneFit) {
+    decide_by_planes(raster_of(trusted_m, T_world_camera), {}, T_world_level, out);
+  } else {
+    decide_by_derivatives(T_world_level, out);
+  }
+  if (!confidence.empty()) {
+    for (LandingSite& site : out.sites)
+      site.confidence = confidence_on(site, confidence, out.R_level_camera, intrinsics_);
+  }
+  conclude(out);
+  return out;
+}
+
+SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Matrix3d& R_world_camera) const {
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  T_world_camera.linear() = R_world_camera;
+  return select(depth_m, T_world_camera);
+}
+
+SiteSelection SiteSelector::judge(ElevationRaster raster, const cv::Mat& hazards, const cv::Mat& level_depth_m,
+                                  const Eigen::Isometry3d& T_world_camera) const {
+  SiteSelection out;
+  out.R_level_camera = level_rotation(T_world_camera.linear());
+  out.level_depth_m = level_depth_m;
+  Eigen::Isometry3d T_world_level = T_world_camera;
+  T_world_level.linear() = T_world_camera.linear() * out.R_level_camera.transpose();
+  decide_by_planes(std::move(raster), hazards, T_world_level, out);
+  conclude(out);
+  return out;
+}
+
+void SiteSelector::decide_by_planes(ElevationRaster raster, const cv::Mat& hazards,
+                                    const Eigen::Isometry3d& T_world_level, SiteSelection& out) const {
+  out.ground = judge_ground(std::move(raster), hazards, config_.plane_fit, config_.ground,
+                            to_radians(config_.max_slope_deg));
+  show_ground(T_world_level, out);
+  if (out.ground.empty()) return;
+  out.status = SiteStatus::kNoFlatArea;
+  const cv::Mat radius_m = cv::max(out.ground.radius_m - config_.margin_m, 0.0);
+  const double px_per_m = 1 / out.ground.raster.cell_m;
+  const auto peaks = separate_peaks(radius_m, config_.ranking.max_sites, config_.min_radius_m,
+                                    [&](const cv::Point&) { return px_per_m; });
+  if (peaks.empty()) return;
+  for (const cv::Point& peak : peaks) out.sites.push_back(site_on(out.ground, peak, T_world_level));
+  out.largest = out.sites.front();
+}
+
+/// Statuses and the order of the sites.
+void SiteSelector::conclude(SiteSelection& out) const {
+  if (!out.largest) return;
+  out.status =
+      out.largest->radius_m > config_.min_radius_m ? SiteStatus::kFound : SiteStatus::kTooSmall;
+  if (!out.found()) {
+    out.sites.clear();
+    return;
+  }
+  for (LandingSite& site : out.sites)
+    site.score = score(site, config_.ranking, config_.min_radius_m, to_radians(config_.max_slope_deg));
+  out.largest = out.sites.front();  // with its score
+  std::stable_sort(out.sites.begin(), out.sites.end(),
+                   [](const LandingSite& a, const LandingSite& b) { return a.score > b.score; });
+}
+
+LandingSite SiteSelector::site_on(const GroundMap& ground, const cv::Point& cell,
+                                  const Eigen::Isometry3d& T_world_level) const {
+  LandingSite site;
+  const Eigen::Vector2d centre_m = ground.raster.centre_m(cell.x, cell.y);
+  site.p_world = {centre_m.x(), centre_m.y(), static_cast<double>(ground.raster.mean_m.at<float>(cell))};
+  site.p_level = T_world_level.inverse() * site.p_world;
+  site.depth_m = site.p_level.z();
+  site.centre_px = intrinsics_.project(site.p_level);
+  site.radius_m = std::max(0.0, static_cast<double>(ground.radius_m.at<float>(cell)) - config_.margin_m);
+  site.radius_px = site.radius_m * focal_px() / site.depth_m;
+  site.distance_m = site.p_level.head<2>().norm();
+  const double cell_m = ground.raster.cell_m;
+  const auto tall_m = static_cast<float>(site.p_world.z() + config_.ranking.obstacle_height_m);
+  const double radius_cells = site.radius_m / cell_m;
+  float gradient = 0;
+  double obstacle_cells2 = std::numeric_limits<double>::max();
+  for (int row = 0; row < ground.safe.rows; ++row) {
+    const float* top = ground.raster.top_m.ptr<float>(row);
+    const auto* known = ground.raster.known.ptr<std::uint8_t>(row);
+    const float* gradients = ground.shape.gradient.ptr<float>(row);
+    const double dy2 = static_cast<double>(row - cell.y) * (row - cell.y);
+    for (int column = 0; column < ground.safe.cols; ++column) {
+      const double distance2 = dy2 + static_cast<double>(column - cell.x) * (column - cell.x);
+      if (distance2 <= radius_cells * radius_cells) gradient = std::max(gradient, gradients[column]);
+      if (known[column] != 0 && top[column] > tall_m) obstacle_cells2 = std::min(obstacle_cells2, distance2);
     }
   }
-  for (int v = 0; v < safe.rows; ++v) {
-    for (int u = 0; u < safe.cols; ++u) {
-      const Patch& patch = patches[static_cast<std::size_t>(labels.at<int>(v, u))];
-      if (patch.area_m2 <= config_.speck_max_area_m2 &&
-          patch.excess <= static_cast<float>(config_.speck_max_excess)) {
-        safe.at<std::uint8_t>(v, u) = 255;
+  site.slope_rad = std::atan(static_cast<double>(gradient));
+  site.obstacle_m = std::min(std::sqrt(obstacle_cells2) * cell_m, config_.plane_fit.reach_m);
+  return site;
+}
+
+/// Every pixel of the level camera shows its cell.
+void SiteSelector::show_ground(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const {
+  const cv::Size size = intrinsics_.size();
+  out.terrain.slope_rad = cv::Mat::zeros(size, CV_32FC1);
+  out.terrain.residual_m = cv::Mat::zeros(size, CV_32FC1);
+  out.terrain.known = cv::Mat::zeros(size, CV_8UC1);
+  out.safe = cv::Mat::zeros(size, CV_8UC1);
+  out.radius_m = cv::Mat::zeros(size, CV_32FC1);
+  if (out.ground.empty()) return;
+  const ElevationRaster& raster = out.ground.raster;
+  cv::Mat slope_rad(raster.size(), CV_32FC1);
+  for (int row = 0; row < slope_rad.rows; ++row) {
+    const float* gradient = out.ground.shape.gradient.ptr<float>(row);
+    auto* const slope = slope_rad.ptr<float>(row);
+    for (int column = 0; column < slope_rad.cols; ++column) slope[column] = std::atan(gradient[column]);
+  }
+  // In cells, from the raster's corner; the level camera's optical axis has no horizontal part.
+  const double per_m = 1 / raster.cell_m;
+  const Eigen::Vector2d corner(static_cast<double>(raster.first_column), static_cast<double>(raster.first_row));
+  const Eigen::Vector2f camera = (T_world_level.translation().head<2>() * per_m - corner).cast<float>();
+  const Eigen::Matrix2f turn = (T_world_level.linear().topLeftCorner<2, 2>() * per_m).cast<float>();
+  const auto cell_m = static_cast<float>(raster.cell_m);
+  const auto margin_m = static_cast<float>(config_.margin_m);
+  for (int v = 0; v < size.height; ++v) {
+    const Eigen::Vector2f first = turn * intrinsics_.ray(0, v).head<2>().cast<float>();
+    const Eigen::Vector2f step = turn.col(0) / static_cast<float>(intrinsics_.fx_px);
+    const float* z = out.level_depth_m.ptr<float>(v);
+    for (int u = 0; u < size.width; ++u) {
+      if (!(z[u] > 0)) continue;
+      const float x = camera.x() + z[u] * (first.x() + static_cast<float>(u) * step.x());
+      const float y = camera.y() + z[u] * (first.y() + static_cast<float>(u) * step.y());
+      if (!(x >= 0 && y >= 0 && x < static_cast<float>(raster.known.cols) &&
+            y < static_cast<float>(raster.known.rows))) {
+        continue;
       }
+      const cv::Point cell(static_cast<int>(x), static_cast<int>(y));
+      if (out.ground.shape.known.at<std::uint8_t>(cell) == 0) continue;
+      out.terrain.known.at<std::uint8_t>(v, u) = 255;
+      out.terrain.slope_rad.at<float>(v, u) = slope_rad.at<float>(cell);
+      out.terrain.residual_m.at<float>(v, u) = out.ground.shape.residual_m.at<float>(cell);
+      if (out.ground.safe.at<std::uint8_t>(cell) == 0) continue;
+      out.safe.at<std::uint8_t>(v, u) = 255;
+      // The circle around the pixel lies in the one around the cell's centre.
+      const float dx = x - static_cast<float>(cell.x) - 0.5F;
+      const float dy = y - static_cast<float>(cell.y) - 0.5F;
+      const float radius_m =
+          out.ground.radius_m.at<float>(cell) - cell_m * std::sqrt(dx * dx + dy * dy) - margin_m;
+      out.radius_m.at<float>(v, u) = std::max(radius_m, 0.F);
     }
   }
 }
 
-cv::Mat SiteSelector::safe_mask(const Terrain& terrain, const cv::Mat& level_depth_m) const {
-  cv::Mat safe = (terrain.slope_rad < to_radians(config_.max_slope_deg)) &
-                 (terrain.roughness_rad < to_radians(config_.max_roughness_deg)) & terrain.known;
-  if (config_.speck_max_area_m2 > 0) forgive_specks(terrain, level_depth_m, safe);
-  if (config_.overhang_clearance_m > 0) {
-    const cv::Mat obstacles = terrain.known & ~safe;
-    safe.setTo(0, ground_beneath(level_depth_m, obstacles, intrinsics_, config_.overhang_clearance_m));
-  }
-  if (config_.erode_px > 1) cv::erode(safe, safe, square(config_.erode_px));
-  if (config_.dilate_px > 1) cv::dilate(safe, safe, square(config_.dilate_px));
-  return safe;
-}
-
-cv::Mat SiteSelector::free_radius_m(const cv::Mat& safe, const cv::Mat& level_depth_m) const {
-  cv::Mat radius_m = free_radius_px(safe).mul(level_depth_m) / focal_px() - config_.margin_m;
-  return cv::max(radius_m, 0.0);
+void SiteSelector::decide_by_derivatives(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const {
+  out.terrain = measure_terrain(out.level_depth_m, intrinsics_, config_.terrain);
+  out.safe = derivative_safe_mask(out.terrain, out.level_depth_m, intrinsics_, config_);
+  const cv::Mat radius_m = free_radius_px(out.safe).mul(out.level_depth_m) / focal_px() - config_.margin_m;
+  out.radius_m = cv::max(radius_m, 0.0);
+  if (cv::countNonZero(out.level_depth_m) == 0) return;
+  out.status = SiteStatus::kNoFlatArea;
+  double largest_m = 0;
+  cv::Point centre;
+  cv::minMaxLoc(out.radius_m, nullptr, &largest_m, nullptr, &centre);
+  if (largest_m <= 0) return;
+  out.largest = circle(out, centre.x, centre.y);
+  out.largest->p_world = T_world_level * out.largest->p_level;
+  out.sites = {*out.largest};
 }
 
 LandingSite SiteSelector::circle(const SiteSelection& selection, int u, int v) const {
@@ -121,28 +283,9 @@ LandingSite SiteSelector::circle(const SiteSelection& selection, int u, int v) c
   site.radius_m = static_cast<double>(selection.radius_m.at<float>(v, u));
   site.radius_px = site.radius_m * focal_px() / site.depth_m;
   site.p_level = intrinsics_.ray(u, v) * site.depth_m;
+  site.distance_m = site.p_level.head<2>().norm();
+  site.slope_rad = static_cast<double>(selection.terrain.slope_rad.at<float>(v, u));
   return site;
-}
-
-SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Matrix3d& R_world_camera) const {
-  SiteSelection out;
-  // 2) What a camera with roll and pitch zero sees.
-  out.R_level_camera = level_rotation(R_world_camera);
-  out.level_depth_m = rotate_depth(depth_m, intrinsics_, out.R_level_camera);
-  // 3) First and second derivatives of the height, as angles.
-  out.terrain = measure_terrain(out.level_depth_m, intrinsics_, config_.terrain);
-  out.safe = safe_mask(out.terrain, out.level_depth_m);
-  // 4) The largest inscribed circle, in metres: over several heights the largest in pixels may be another one.
-  out.radius_m = free_radius_m(out.safe, out.level_depth_m);
-  if (cv::countNonZero(out.level_depth_m) == 0) return out;
-  double radius_m = 0;
-  cv::Point centre;
-  cv::minMaxLoc(out.radius_m, nullptr, &radius_m, nullptr, &centre);
-  out.status = radius_m <= 0                     ? SiteStatus::kNoFlatArea
-               : radius_m > config_.min_radius_m ? SiteStatus::kFound
-                                                 : SiteStatus::kTooSmall;
-  if (radius_m > 0) out.largest = circle(out, centre.x, centre.y);
-  return out;
 }
 
 std::optional<LandingSite> SiteSelector::circle_at(const SiteSelection& selection,

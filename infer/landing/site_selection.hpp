@@ -2,19 +2,35 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "geometry/camera.hpp"
+#include "infer/landing/ground_safety.hpp"
+#include "infer/landing/landing_site.hpp"
+#include "infer/landing/plane_fit.hpp"
+#include "infer/landing/site_ranking.hpp"
 #include "infer/landing/terrain.hpp"
 
 namespace alight {
 
+/// How the ground is judged.
+enum class LandingMethod {
+  kPlaneFit,     ///< planes on discs of the ground, in metres
+  kDerivatives,  ///< the paper's: first and second derivative of the depth image
+};
+
 /// What counts as safe ground (paper 3.3; the paper's t_inc, t_tur and R).
 struct SiteSelectionConfig {
-  TerrainConfig terrain;
+  LandingMethod method = LandingMethod::kPlaneFit;
   double max_slope_deg = 10;
+  // plane_fit
+  PlaneFitConfig plane_fit;
+  GroundSafetyConfig ground;
+  // derivatives
+  TerrainConfig terrain;
   double max_roughness_deg = 10;
   /// Point and pose noise make specks that just exceed a limit, and one speck is enough to cut a circle in half. An
   /// unsafe patch is taken for noise when it is smaller than this *and* nowhere exceeds a limit by more than
@@ -27,20 +43,15 @@ struct SiteSelectionConfig {
   int dilate_px = 3;
   /// Ground below an obstacle that hangs higher than this over it is unsafe too. 0: off, the paper.
   double overhang_clearance_m = 0.5;
+  // both
+  double min_confidence = 0.5;  ///< pixels with less are unknown, where a confidence is given
   double min_radius_m = 2.0;
-  /// Taken off every radius: what the vehicle needs on top for control error.
+  double vehicle_radius_m = 0.85;  ///< from its middle to the tips of its propellers
+  /// Taken off every radius: where the vehicle comes down differs by so much from where it wants to.
   double margin_m = 0.0;
+  SiteRankingConfig ranking;
 };
 void bind(Binder& b, SiteSelectionConfig& c);
-
-/// A circle of safe ground, seen by the level camera.
-struct LandingSite {
-  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< in the level camera's image
-  double radius_px = 0;
-  double depth_m = 0;                                 ///< plane depth of the centre
-  double radius_m = 0;                                ///< depth / f * radius_px
-  Eigen::Vector3d p_level = Eigen::Vector3d::Zero();  ///< the centre in the level camera's frame
-};
 
 enum class SiteStatus {
   kFound,
@@ -54,11 +65,15 @@ struct SiteSelection {
   SiteStatus status = SiteStatus::kNoDepth;
   /// The largest circle, whatever its size; absent where there is no safe pixel. Only kFound makes it a site.
   std::optional<LandingSite> largest;
+  /// Separate circles larger than min_radius_m, the best score first; with plane_fit up to ranking.max_sites of them,
+  /// with the derivatives the largest alone.
+  std::vector<LandingSite> sites;
   Eigen::Matrix3d R_level_camera = Eigen::Matrix3d::Identity();
   cv::Mat level_depth_m;  ///< CV_32FC1
   Terrain terrain;
   cv::Mat safe;      ///< CV_8UC1, 255 = safe
   cv::Mat radius_m;  ///< CV_32FC1, radius of the free circle around every pixel, 0 where unsafe
+  GroundMap ground;  ///< plane_fit: the judged raster that the maps above show; else empty
 
   bool found() const { return status == SiteStatus::kFound; }
 };
@@ -72,21 +87,38 @@ class SiteSelector {
   SiteSelector(const SiteSelectionConfig& config, const PinholeIntrinsics& intrinsics);
 
   /// @param depth_m CV_32FC1 plane depth of the left camera, 0 = unknown
-  /// @param R_world_camera the camera's attitude; only roll and pitch matter
+  /// @param confidence CV_32FC1 from 0 to 1 of the same size, or empty: the depth is trusted as it is
+  /// @throws std::invalid_argument if a size or type is wrong
+  SiteSelection select(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera,
+                       const cv::Mat& confidence = {}) const;
+  /// The same for a camera at the world's origin: positions in the world count from the camera.
   SiteSelection select(const cv::Mat& depth_m, const Eigen::Matrix3d& R_world_camera) const;
+
+  /// The decision of plane_fit on a raster that came from elsewhere (fused over frames), seen from a camera.
+  /// @param hazards see judge_ground
+  /// @param level_depth_m CV_32FC1, what the level camera sees now: where the maps are shown
+  SiteSelection judge(ElevationRaster raster, const cv::Mat& hazards, const cv::Mat& level_depth_m,
+                      const Eigen::Isometry3d& T_world_camera) const;
 
   /// The free circle around a pixel of the level camera; empty outside the image and on unsafe ground.
   std::optional<LandingSite> circle_at(const SiteSelection& selection,
                                        const Eigen::Vector2d& centre_px) const;
 
+  /// A raster of this frame's points as plane_fit uses it.
+  ElevationRaster raster_of(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera) const;
+
   const SiteSelectionConfig& config() const { return config_; }
   const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
 
  private:
-  cv::Mat safe_mask(const Terrain& terrain, const cv::Mat& level_depth_m) const;
-  void forgive_specks(const Terrain& terrain, const cv::Mat& level_depth_m, cv::Mat& safe) const;
-  cv::Mat free_radius_m(const cv::Mat& safe, const cv::Mat& level_depth_m) const;
+  void decide_by_planes(ElevationRaster raster, const cv::Mat& hazards, const Eigen::Isometry3d& T_world_level,
+                        SiteSelection& out) const;
+  void decide_by_derivatives(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const;
+  void show_ground(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const;
+  LandingSite site_on(const GroundMap& ground, const cv::Point& cell,
+                      const Eigen::Isometry3d& T_world_level) const;
   LandingSite circle(const SiteSelection& selection, int u, int v) const;
+  void conclude(SiteSelection& out) const;
   double focal_px() const;
 
   SiteSelectionConfig config_;

@@ -61,7 +61,8 @@ SiteDecision SiteTracker::update(std::int64_t t_ns, const SiteSelection& selecti
   T_world_level.linear() = T_world_camera.linear() * selection.R_level_camera.transpose();
   std::optional<TrackedSite> now = keep(selection, T_world_level);
   if (!now && selection.found()) {
-    now = TrackedSite{*selection.largest, T_world_level * selection.largest->p_level, 1, false};
+    const LandingSite& best = selection.sites.empty() ? *selection.largest : selection.sites.front();
+    now = TrackedSite{best, T_world_level * best.p_level, 1, false};
   }
   site_ = now;
   return conclude(t_ns, std::move(now));

@@ -18,6 +18,12 @@ using scenes::level_ground;
 
 const Eigen::Matrix3d kDown = attitude(0, 0);
 
+SiteSelectionConfig derivatives() {
+  SiteSelectionConfig config;
+  config.method = LandingMethod::kDerivatives;
+  return config;
+}
+
 /// How far inside a shape's edge safe ground begins: the derivative's baseline, half the smoothing window, and the
 /// pixel grid.
 double band_m(double z_m) { return 0.5 + 3 * z_m / 440; }
@@ -27,7 +33,7 @@ class SlopeClass : public testing::TestWithParam<double> {};
 TEST_P(SlopeClass, IsDecidedExactly) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const double gradient = std::tan(to_radians(GetParam()));
-  SiteSelectionConfig config;
+  SiteSelectionConfig config = derivatives();
   config.erode_px = config.dilate_px = 1;
   const SiteSelection selection =
       SiteSelector(config, k).select(scenes::plane(k, 20, gradient * 0.6, gradient * 0.8), kDown);
@@ -40,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Planes, SlopeClass, testing::Values(0.0, 5.0, 9.0, 9.9,
 
 TEST(SiteSelector, LevelGroundIsSafeUnderAnyRollAndPitch) {
   const PinholeIntrinsics k = camera_of(352, 352);
-  SiteSelectionConfig config;
+  SiteSelectionConfig config = derivatives();
   config.erode_px = config.dilate_px = 1;  // so that the corners of what is known stay
   const SiteSelector selector(config, k);
   for (const double tilt_x : {-15.0, 0.0, 7.0, 20.0}) {
@@ -62,7 +68,7 @@ TEST(SiteSelector, SlopeIsMeasuredAgainstTheHorizonNotTheCamera) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const Eigen::Matrix3d R = attitude(to_radians(15), 0);
   // Perpendicular to the camera, so 15 degrees steep in the world.
-  EXPECT_EQ(SiteSelector({}, k).select(level_ground(k, 20), R).status, SiteStatus::kNoFlatArea);
+  EXPECT_EQ(SiteSelector(derivatives(), k).select(level_ground(k, 20), R).status, SiteStatus::kNoFlatArea);
 }
 
 TEST(SiteSelector, RadiusFollowsFromDepthFocalLengthAndPixels) {
@@ -79,7 +85,7 @@ TEST(SiteSelector, RadiusFollowsFromDepthFocalLengthAndPixels) {
       if (rough.at<float>(v, u) > 22 && (u / 6 + v / 6) % 2 == 0) rough.at<float>(v, u) = 27;
     }
   }
-  const SiteSelection selection = SiteSelector({}, k).select(rough, kDown);
+  const SiteSelection selection = SiteSelector(derivatives(), k).select(rough, kDown);
   ASSERT_TRUE(selection.found());
   const LandingSite& site = *selection.largest;
   EXPECT_NEAR(site.p_level.x(), 1.0, 3 * z_m / 440);
@@ -92,7 +98,7 @@ TEST(SiteSelector, RadiusFollowsFromDepthFocalLengthAndPixels) {
 
 TEST(SiteSelector, CircleOfASquareFieldIsItsIncircle) {
   const PinholeIntrinsics k = camera_of(352, 300);
-  SiteSelectionConfig config;
+  SiteSelectionConfig config = derivatives();
   config.erode_px = config.dilate_px = 1;
   cv::Mat depth(k.size(), CV_32FC1, cv::Scalar(0));
   depth(cv::Rect(40, 60, 141, 141)).setTo(22.0);  // baseline 10 px; smoothing takes 2 px a side
@@ -106,7 +112,7 @@ TEST(SiteSelector, CircleOfASquareFieldIsItsIncircle) {
 
 TEST(SiteSelector, ImageBorderIsUnsafe) {
   const PinholeIntrinsics k = camera_of(201, 151);
-  const SiteSelection selection = SiteSelector({}, k).select(level_ground(k, 44), kDown);  // baseline 5 px
+  const SiteSelection selection = SiteSelector(derivatives(), k).select(level_ground(k, 44), kDown);  // baseline 5 px
   ASSERT_TRUE(selection.largest);
   EXPECT_NEAR(selection.largest->centre_px.y(), 75, 0.1);
   EXPECT_NEAR(selection.largest->radius_px, (151 - 2 * 7) / 2.0, 0.01);
@@ -119,7 +125,7 @@ TEST(SiteSelector, BoxOfThirtyCentimetresIsUnsafeFromEveryHeight) {
     scenes::change(
         depth, k, z_m, [](double x, double y) { return std::abs(x) < 0.3 && std::abs(y) < 0.3; },
         static_cast<float>(z_m - 0.3));
-    const SiteSelection selection = SiteSelector({}, k).select(depth, kDown);
+    const SiteSelection selection = SiteSelector(derivatives(), k).select(depth, kDown);
     EXPECT_EQ(selection.safe.at<std::uint8_t>(176, 176), 0) << z_m;
     ASSERT_TRUE(selection.largest);
     const LandingSite& site = *selection.largest;
@@ -133,7 +139,7 @@ TEST(SiteSelector, ThinPoleIsUnsafe) {
   const PinholeIntrinsics k = camera_of(352, 352);
   cv::Mat depth = level_ground(k, 20);
   depth.at<float>(150, 190) = 17;  // one pixel, 4.5 cm wide, 3 m tall
-  const SiteSelection selection = SiteSelector({}, k).select(depth, kDown);
+  const SiteSelection selection = SiteSelector(derivatives(), k).select(depth, kDown);
   EXPECT_EQ(selection.safe.at<std::uint8_t>(150, 190), 0);
   ASSERT_TRUE(selection.largest);
   const double distance_px = (selection.largest->centre_px - Eigen::Vector2d(190, 150)).norm();
@@ -144,7 +150,7 @@ TEST(SiteSelector, NoisyLevelGroundIsStillASite) {
   for (const double z_m : {8.0, 15.0, 30.0}) {
     const PinholeIntrinsics k = camera_of(352, 352);
     const SiteSelection selection =
-        SiteSelector({}, k).select(scenes::with_noise(level_ground(k, z_m), 0.02, 11), kDown);
+        SiteSelector(derivatives(), k).select(scenes::with_noise(level_ground(k, z_m), 0.02, 11), kDown);
     EXPECT_TRUE(selection.found()) << z_m << " m: " << describe(selection);
     EXPECT_GT(cv::countNonZero(selection.safe), 0.99 * cv::countNonZero(selection.terrain.known));
   }
@@ -152,7 +158,7 @@ TEST(SiteSelector, NoisyLevelGroundIsStillASite) {
 
 TEST(SiteSelector, ReasonsAreSaid) {
   const PinholeIntrinsics k = camera_of(352, 352);
-  const SiteSelector selector({}, k);
+  const SiteSelector selector(derivatives(), k);
   const SiteSelection nothing = selector.select(cv::Mat::zeros(352, 352, CV_32FC1), kDown);
   EXPECT_EQ(nothing.status, SiteStatus::kNoDepth);
   EXPECT_EQ(describe(nothing), "no depth");
@@ -173,7 +179,7 @@ TEST(SiteSelector, ReasonsAreSaid) {
 
 TEST(SiteSelector, MarginAndErosionTakeTheirPart) {
   const PinholeIntrinsics k = camera_of(352, 352);
-  SiteSelectionConfig config;
+  SiteSelectionConfig config = derivatives();
   const double plain_m = SiteSelector(config, k).select(level_ground(k, 20), kDown).largest->radius_m;
   config.margin_m = 0.7;
   EXPECT_NEAR(SiteSelector(config, k).select(level_ground(k, 20), kDown).largest->radius_m, plain_m - 0.7,
@@ -195,7 +201,7 @@ TEST(SiteSelector, MarginAndErosionTakeTheirPart) {
 TEST(SiteSelector, NothingThatWasUnsafeBecomesSafeByOpening) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const cv::Mat depth = scenes::with_noise(level_ground(k, 30), 0.06, 5);
-  SiteSelectionConfig config;
+  SiteSelectionConfig config = derivatives();
   const SiteSelection opened = SiteSelector(config, k).select(depth, kDown);
   config.erode_px = config.dilate_px = 1;
   const SiteSelection raw = SiteSelector(config, k).select(depth, kDown);
@@ -204,7 +210,7 @@ TEST(SiteSelector, NothingThatWasUnsafeBecomesSafeByOpening) {
 
 TEST(SiteSelector, CircleAtAPixel) {
   const PinholeIntrinsics k = camera_of(352, 352);
-  const SiteSelector selector({}, k);
+  const SiteSelector selector(derivatives(), k);
   const SiteSelection selection = selector.select(level_ground(k, 20), kDown);
   const auto centre = selector.circle_at(selection, {175.5, 175.5});
   ASSERT_TRUE(centre);
@@ -223,7 +229,7 @@ TEST(SiteSelector, GroundBelowAWireIsUnsafe) {
   cv::Mat depth = level_ground(k, 20);
   depth.col(276).setTo(
       10);  // a wire 2.27 m right of the camera and 10 m up is seen where the ground is 4.55 m right
-  SiteSelectionConfig config;
+  SiteSelectionConfig config = derivatives();
   const SiteSelection warned = SiteSelector(config, k).select(depth, kDown);
   config.overhang_clearance_m = 0;
   const SiteSelection paper = SiteSelector(config, k).select(depth, kDown);
@@ -240,7 +246,7 @@ TEST(SiteSelector, WeakSpecksAreNoiseAndStrongOrLongOnesAreNot) {
   const auto safe_at_centre = [&](int width_px, int height_px, double bump_m) {
     cv::Mat depth = level_ground(k, 20);  // 4.5 cm a pixel
     depth(cv::Rect(176 - width_px / 2, 176 - height_px / 2, width_px, height_px)).setTo(20 - bump_m);
-    return SiteSelector({}, k).select(depth, kDown).safe.at<std::uint8_t>(176, 176) != 0;
+    return SiteSelector(derivatives(), k).select(depth, kDown).safe.at<std::uint8_t>(176, 176) != 0;
   };
   EXPECT_TRUE(safe_at_centre(5, 5, 0.04)) << "below the limit";
   EXPECT_TRUE(safe_at_centre(5, 5, 0.06)) << "a weak speck";

@@ -1,0 +1,135 @@
+#include "infer/landing/elevation_raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace alight {
+namespace {
+
+constexpr float kFlattestRay = 0.1F;  // rays that hardly go down say little about the ground
+
+/// Points as separate arrays: one pass computes them in vector instructions, the next one sorts them into cells.
+struct Points {
+  explicit Points(std::size_t count) : east_m(count), north_m(count), height_m(count) {}
+  std::vector<float> east_m;    // from the corner of the camera's cell; NaN: none
+  std::vector<float> north_m;   // likewise
+  std::vector<float> height_m;  // the world's z
+  float low_east_m = std::numeric_limits<float>::infinity();
+  float low_north_m = low_east_m;
+  float high_east_m = -low_east_m;
+  float high_north_m = -low_east_m;
+};
+
+/// @param corner_m from the corner of the camera's cell to the camera
+Points points_of(const cv::Mat& depth_m, const PinholeIntrinsics& k, const Eigen::Isometry3d& T_world_camera,
+                 const Eigen::Vector2d& corner_m, double reach_m) {
+  Points points(depth_m.total());
+  const Eigen::Matrix3f R = T_world_camera.linear().cast<float>();
+  const Eigen::Vector3f step = R.col(0) / static_cast<float>(k.fx_px);
+  const auto height_m = static_cast<float>(T_world_camera.translation().z());
+  const auto corner_east_m = static_cast<float>(corner_m.x());
+  const auto corner_north_m = static_cast<float>(corner_m.y());
+  const auto reach = static_cast<float>(reach_m);
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  float* east = points.east_m.data();
+  float* north = points.north_m.data();
+  float* up = points.height_m.data();
+  for (int v = 0; v < depth_m.rows; ++v) {
+    const Eigen::Vector3f first = R * k.ray(0, v).cast<float>();
+    const float* z = depth_m.ptr<float>(v);
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const auto column = static_cast<float>(u);
+      const float down = first.z() + column * step.z();
+      const float x = z[u] * (first.x() + column * step.x());
+      const float y = z[u] * (first.y() + column * step.y());
+      const bool good = z[u] > 0 && down < -kFlattestRay && std::abs(x) < reach && std::abs(y) < reach;
+      east[u] = good ? x + corner_east_m : kNone;
+      north[u] = good ? y + corner_north_m : kNone;
+      up[u] = height_m + z[u] * down;
+    }
+    for (int u = 0; u < depth_m.cols; ++u) {  // a comparison with NaN leaves the limit as it is
+      points.low_east_m = east[u] < points.low_east_m ? east[u] : points.low_east_m;
+      points.high_east_m = east[u] > points.high_east_m ? east[u] : points.high_east_m;
+      points.low_north_m = north[u] < points.low_north_m ? north[u] : points.low_north_m;
+      points.high_north_m = north[u] > points.high_north_m ? north[u] : points.high_north_m;
+    }
+    east += depth_m.cols;
+    north += depth_m.cols;
+    up += depth_m.cols;
+  }
+  return points;
+}
+
+struct Cell {
+  float sum_m = 0;
+  float count = 0;
+  float top_m = -std::numeric_limits<float>::infinity();
+  float bottom_m = std::numeric_limits<float>::infinity();
+};
+
+int cell_of(float coordinate_m, float per_m) { return static_cast<int>(std::floor(coordinate_m * per_m)); }
+
+}  // namespace
+
+bool ElevationRaster::cell_at(double east_m, double north_m, int& column, int& row) const {
+  const double c = std::floor(east_m / cell_m) - static_cast<double>(first_column);
+  const double r = std::floor(north_m / cell_m) - static_cast<double>(first_row);
+  if (!(c >= 0 && r >= 0 && c < known.cols && r < known.rows)) return false;
+  column = static_cast<int>(c);
+  row = static_cast<int>(r);
+  return true;
+}
+
+ElevationRaster rasterize(const cv::Mat& depth_m, const PinholeIntrinsics& intrinsics,
+                          const Eigen::Isometry3d& T_world_camera, double cell_m, double reach_m) {
+  if (depth_m.type() != CV_32FC1 || depth_m.size() != intrinsics.size()) {
+    throw std::invalid_argument("rasterize: depth must be CV_32FC1 of the camera's size");
+  }
+  if (!(cell_m > 0 && reach_m > 0)) throw std::invalid_argument("rasterize: cell and reach must be positive");
+  const Eigen::Vector2d camera_m = T_world_camera.translation().head<2>();
+  const Eigen::Vector2d camera_cell = (camera_m / cell_m).array().floor();
+  const Points points =
+      points_of(depth_m, intrinsics, T_world_camera, camera_m - camera_cell * cell_m, reach_m);
+  ElevationRaster raster;
+  raster.cell_m = cell_m;
+  if (points.high_east_m < points.low_east_m) return raster;
+  const auto per_m = static_cast<float>(1 / cell_m);
+  const int column0 = cell_of(points.low_east_m, per_m);
+  const int row0 = cell_of(points.low_north_m, per_m);
+  const cv::Size size(cell_of(points.high_east_m, per_m) - column0 + 1,
+                      cell_of(points.high_north_m, per_m) - row0 + 1);
+  raster.first_column = static_cast<std::int64_t>(camera_cell.x()) + column0;
+  raster.first_row = static_cast<std::int64_t>(camera_cell.y()) + row0;
+  std::vector<Cell> cells(static_cast<std::size_t>(size.area()));
+  for (std::size_t i = 0; i < points.east_m.size(); ++i) {
+    if (std::isnan(points.east_m[i])) continue;
+    const int column = cell_of(points.east_m[i], per_m) - column0;
+    const int row = cell_of(points.north_m[i], per_m) - row0;
+    Cell& cell = cells[static_cast<std::size_t>(row * size.width + column)];
+    const float height = points.height_m[i];
+    cell.sum_m += height;
+    cell.count += 1;
+    cell.top_m = std::max(cell.top_m, height);
+    cell.bottom_m = std::min(cell.bottom_m, height);
+  }
+  raster.mean_m.create(size, CV_32FC1);
+  raster.top_m.create(size, CV_32FC1);
+  raster.bottom_m.create(size, CV_32FC1);
+  raster.known.create(size, CV_8UC1);
+  const Cell* cell = cells.data();
+  for (int row = 0; row < size.height; ++row) {
+    for (int column = 0; column < size.width; ++column, ++cell) {
+      const bool known = cell->count > 0;
+      raster.mean_m.at<float>(row, column) = known ? cell->sum_m / cell->count : 0.F;
+      raster.top_m.at<float>(row, column) = known ? cell->top_m : 0.F;
+      raster.bottom_m.at<float>(row, column) = known ? cell->bottom_m : 0.F;
+      raster.known.at<std::uint8_t>(row, column) = known ? 255 : 0;
+    }
+  }
+  return raster;
+}
+
+}  // namespace alight

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "configs/config_reader.hpp"
+#include "infer/landing/elevation_raster.hpp"
+#include "infer/landing/plane_fit.hpp"
+
+namespace alight {
+
+/// What makes a cell of the ground unsafe besides its own slope and residual.
+struct GroundSafetyConfig {
+  /// Safe cells nearer to an unsafe one are given up: slope and residual are known to a cell's width only.
+  double guard_m = 0.2;
+  /// Level ground whose seen border falls away by more than this is a roof, a container or the like. 0: off.
+  double platform_height_m = 1.0;
+  double platform_border = 0.5;  ///< share of the border that has to fall away
+};
+void bind(Binder& b, GroundSafetyConfig& c);
+
+/// A raster that has been judged. All maps have the raster's size.
+struct GroundMap {
+  ElevationRaster raster;
+  GroundShape shape;
+  cv::Mat safe;      ///< CV_8UC1, 255 = safe
+  cv::Mat radius_m;  ///< CV_32FC1, from a safe cell's centre to the nearest unsafe cell's edge; 0 where unsafe
+
+  bool empty() const { return raster.empty(); }
+};
+
+/// Judges every cell: the plane is less steep than the limit, nothing on the disc is farther from it than
+/// plane_fit.max_residual_m, every cell of the disc is known, it is no raised platform, and all that holds for the
+/// cells within guard_m too. What is unknown and what lies beyond the raster is unsafe.
+/// @param hazards CV_8UC1 of the raster's size, non-zero = unsafe whatever the shape says; may be empty
+GroundMap judge_ground(ElevationRaster raster, const cv::Mat& hazards, const PlaneFitConfig& plane_fit,
+                       const GroundSafetyConfig& safety, double max_slope_rad);
+
+}  // namespace alight

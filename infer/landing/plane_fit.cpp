@@ -1,0 +1,148 @@
+#include "infer/landing/plane_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+namespace alight {
+namespace {
+
+/// A cell of the disc. The disc is symmetric in both axes, so the normal equations of the plane are diagonal.
+struct Offset {
+  int row;
+  int column;
+  float east_m;
+  float north_m;
+};
+
+std::vector<Offset> disc(double radius_m, double cell_m, int reach) {
+  std::vector<Offset> offsets;
+  for (int row = -reach; row <= reach; ++row) {
+    for (int column = -reach; column <= reach; ++column) {
+      if (std::hypot(row, column) * cell_m > radius_m + 1e-9) continue;
+      offsets.push_back(
+          {row, column, static_cast<float>(column * cell_m), static_cast<float>(row * cell_m)});
+    }
+  }
+  return offsets;
+}
+
+/// The planes of one row of cells.
+struct Planes {
+  explicit Planes(int columns)
+      : mean_m(static_cast<std::size_t>(columns)), east(mean_m.size()), north(mean_m.size()) {}
+  std::vector<float> mean_m;
+  std::vector<float> east;  // gradients
+  std::vector<float> north;
+};
+
+/// Loops over the disc outside, over the row inside: the compiler works on several cells at once.
+void fit_row(const cv::Mat& height_m, int row, int begin, int end, const std::vector<Offset>& offsets,
+             Planes& planes) {
+  std::fill(planes.mean_m.begin(), planes.mean_m.end(), 0.F);
+  std::fill(planes.east.begin(), planes.east.end(), 0.F);
+  std::fill(planes.north.begin(), planes.north.end(), 0.F);
+  float* const mean = planes.mean_m.data();
+  float* const east = planes.east.data();
+  float* const north = planes.north.data();
+  float squares = 0;
+  for (const Offset& o : offsets) {
+    const float* const z = height_m.ptr<float>(row + o.row) + o.column;
+    for (int c = begin; c < end; ++c) {
+      mean[c] += z[c];
+      east[c] += o.east_m * z[c];
+      north[c] += o.north_m * z[c];
+    }
+    squares += o.east_m * o.east_m;
+  }
+  const float per_cell = 1.F / static_cast<float>(offsets.size());
+  for (int c = begin; c < end; ++c) {
+    mean[c] *= per_cell;
+    east[c] /= squares;
+    north[c] /= squares;
+  }
+}
+
+void residuals(const cv::Mat& top_m, const cv::Mat& bottom_m, int row, int begin, int end,
+               const std::vector<Offset>& offsets, float half_cell_m, const Planes& planes,
+               float* const residual_m, float* const deviation_m) {
+  const float* const mean = planes.mean_m.data();
+  const float* const east = planes.east.data();
+  const float* const north = planes.north.data();
+  for (const Offset& o : offsets) {
+    const float* const top = top_m.ptr<float>(row + o.row) + o.column;
+    const float* const bottom = bottom_m.ptr<float>(row + o.row) + o.column;
+    for (int c = begin; c < end; ++c) {
+      const float plane = mean[c] + east[c] * o.east_m + north[c] * o.north_m;
+      const float above = top[c] - plane;
+      const float below = plane - bottom[c];
+      const float larger = above > below ? above : below;
+      residual_m[c] = larger > residual_m[c] ? larger : residual_m[c];
+    }
+    if (o.row != 0 || o.column != 0) continue;
+    for (int c = begin; c < end; ++c) {
+      const float above = top[c] - mean[c];
+      const float below = mean[c] - bottom[c];
+      deviation_m[c] = above > below ? above : below;
+    }
+  }
+  for (int c = begin; c < end; ++c) {
+    // By so much a tilted plane alone rises from a cell's middle to its corner.
+    const float tilt = half_cell_m * (std::abs(east[c]) + std::abs(north[c]));
+    residual_m[c] = residual_m[c] > tilt ? residual_m[c] - tilt : 0.F;
+    deviation_m[c] = deviation_m[c] > tilt ? deviation_m[c] - tilt : 0.F;
+  }
+}
+
+}  // namespace
+
+void bind(Binder& b, PlaneFitConfig& c) {
+  b.field("cell_m", c.cell_m, "side of a ground cell", between(0.05, 2));
+  b.field("radius_m", c.radius_m, "of the disc on which a cell's plane is fitted", between(0.05, 5));
+  b.field("max_residual_m", c.max_residual_m, "nothing on the disc may lie farther from its plane",
+          between(0.01, 2));
+  b.field("reach_m", c.reach_m, "ground farther away horizontally is left out", between(5, 500));
+  b.check("radius_m", c.radius_m >= c.cell_m, "must be at least cell_m, or no plane can be fitted");
+  b.check("reach_m", c.reach_m <= 1000 * c.cell_m, "must be at most 1000 cells");
+}
+
+GroundShape fit_planes(const ElevationRaster& raster, const PlaneFitConfig& config) {
+  const cv::Size size = raster.size();
+  GroundShape shape{cv::Mat::zeros(size, CV_32FC1), cv::Mat::zeros(size, CV_32FC1),
+                    cv::Mat::zeros(size, CV_32FC1), cv::Mat::zeros(size, CV_8UC1)};
+  const double radius_m = std::max(config.radius_m, raster.cell_m);
+  const int reach = static_cast<int>(std::floor(radius_m / raster.cell_m + 1e-9));
+  if (size.width <= 2 * reach || size.height <= 2 * reach) return shape;
+  const std::vector<Offset> offsets = disc(radius_m, raster.cell_m, reach);
+  cv::Mat kernel = cv::Mat::zeros(2 * reach + 1, 2 * reach + 1, CV_8UC1);
+  for (const Offset& o : offsets) kernel.at<std::uint8_t>(o.row + reach, o.column + reach) = 1;
+  cv::erode(raster.known, shape.known, kernel, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  // Sums of large heights would cost digits.
+  const cv::Scalar level_m = cv::mean(raster.mean_m, raster.known);
+  const cv::Mat mean_m = raster.mean_m - level_m;
+  const cv::Mat top_m = raster.top_m - level_m;
+  const cv::Mat bottom_m = raster.bottom_m - level_m;
+  Planes planes(size.width);
+  const auto half_cell_m = static_cast<float>(raster.cell_m / 2);
+  const int begin = reach;
+  const int end = size.width - reach;
+  for (int row = reach; row < size.height - reach; ++row) {
+    fit_row(mean_m, row, begin, end, offsets, planes);
+    auto* const residual_m = shape.residual_m.ptr<float>(row);
+    residuals(top_m, bottom_m, row, begin, end, offsets, half_cell_m, planes, residual_m,
+              shape.deviation_m.ptr<float>(row));
+    auto* const gradient = shape.gradient.ptr<float>(row);
+    const float* const east = planes.east.data();
+    const float* const north = planes.north.data();
+    for (int c = begin; c < end; ++c) gradient[c] = std::sqrt(east[c] * east[c] + north[c] * north[c]);
+  }
+  const cv::Mat unknown = ~shape.known;
+  shape.gradient.setTo(0, unknown);
+  shape.residual_m.setTo(0, unknown);
+  shape.deviation_m.setTo(0, unknown);
+  return shape;
+}
+
+}  // namespace alight

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "configs/config_reader.hpp"
+#include "infer/landing/elevation_raster.hpp"
+
+namespace alight {
+
+/// Over which ground a plane is laid. Metres on the ground: the answer depends neither on the height of flight nor on
+/// the size of a pixel.
+struct PlaneFitConfig {
+  double cell_m = 0.2;    ///< side of a cell; higher up it grows with the pixels, so that cells do not stay empty
+  double radius_m = 0.6;  ///< of the disc on which a cell's plane is fitted
+  double max_residual_m = 0.10;  ///< nothing on the disc may lie farther above or below the plane
+  double reach_m = 60;           ///< ground farther away horizontally is left out
+};
+void bind(Binder& b, PlaneFitConfig& c);
+
+/// Shape of the ground around every cell of a raster.
+struct GroundShape {
+  cv::Mat gradient;    ///< CV_32FC1, tangent of the plane's slope
+  cv::Mat residual_m;  ///< CV_32FC1, largest vertical distance of anything on the disc to the plane
+  cv::Mat deviation_m;  ///< CV_32FC1, the same of what is in the cell alone: an obstacle stands here
+  cv::Mat known;        ///< CV_8UC1, 255 where every cell of the disc is known; elsewhere the others are 0
+};
+
+/// Least-squares plane through the cells' mean heights on a disc around every cell. Exact on planes of any slope: the
+/// part of a cell's own spread that the slope explains is taken off the residual.
+GroundShape fit_planes(const ElevationRaster& raster, const PlaneFitConfig& config);
+
+}  // namespace alight
