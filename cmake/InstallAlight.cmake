@@ -4,7 +4,7 @@
 include(CMakePackageConfigHelpers)
 
 set(ALIGHT_PACKAGE_TARGETS alight_configs alight_cli alight_geometry alight_alignment alight_dataset alight_landing
-                           alight_health alight_engine alight_onboard alight_results alight_autopilot
+                           alight_health alight_engine alight_mission alight_onboard alight_results alight_autopilot
                            alight_replay)
 set(ALIGHT_TOOLS alight-sim alight-dataset)
 if(ALIGHT_WITH_TORCH)

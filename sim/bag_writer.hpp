@@ -7,7 +7,7 @@
 #include <rosbag/bag.h>
 
 #include "configs/errors.hpp"
-#include "sim/sensor_messages.hpp"
+#include "sim/message_maker.hpp"
 #include "sim/sim_config.hpp"
 
 namespace alight::sim {
@@ -30,6 +30,11 @@ class BagWriter {
     } catch (const rosbag::BagException& e) {
       throw DataError(path_.string() + ": cannot be written: " + e.what());
     }
+  }
+
+  void write(const RecordedMessage& message) {
+    std::visit([&](const auto& content) { write(message.topic, message.receive_ns, content); },
+               message.content);
   }
 
   /// @returns the size of the file in bytes. @throws DataError

@@ -23,6 +23,9 @@ enum class RandomStream : std::uint64_t {
   kHeight,
   kFlightPlan,
   kSway,
+  kWind,
+  kLandingFault,
+  kLandingStart,
 };
 
 /// Random numbers as a pure function of (seed, stream, counter): the same on every run and for every number

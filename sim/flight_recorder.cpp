@@ -1,7 +1,6 @@
 #include "sim/flight_recorder.hpp"
 
 #include <deque>
-#include <functional>
 #include <future>
 #include <utility>
 #include <vector>
@@ -13,8 +12,8 @@
 #include "cli/progress_bar.hpp"
 #include "geometry/frames.hpp"
 #include "sim/bag_writer.hpp"
+#include "sim/message_maker.hpp"
 #include "sim/message_schedule.hpp"
-#include "sim/sensor_messages.hpp"
 #include "sim/simulated_flight.hpp"
 #include "sim/truth_writer.hpp"
 
@@ -35,131 +34,79 @@ class OpenCvOnOneThread {
   int before_;
 };
 
-/// Puts a finished measurement into the bag; runs on the writing thread, in the order of the schedule.
-using WriteStep = std::function<void(BagWriter&)>;
+/// The messages of one measurement.
+using Made = std::vector<RecordedMessage>;
 
-/// Makes the messages of one flight.
-class MessageMaker {
+/// Takes the measurements of one flight; called from several threads.
+class Measurements {
  public:
-  MessageMaker(const SimulatedFlight& flight, const SensorsConfig& sensors, const Rig& rig,
+  Measurements(const SimulatedFlight& flight, const SensorsConfig& sensors, const Rig& rig,
                const RectifiedRig& rectified, const TruthWriter* truth)
-      : flight_(flight), sensors_(sensors), rig_(rig), rectified_(rectified), truth_(truth) {}
+      : flight_(flight), maker_(sensors, rig), rectified_(rectified), truth_(truth) {}
 
-  /// Computes a measurement; called from several threads.
-  WriteStep make(const ScheduledMessage& message) const {
-    switch (message.stream) {
-      case SensorStream::kLidar:
-        return lidar(message);
-      case SensorStream::kCamera:
-        return camera(message);
-      default:
-        return pose(message);
-    }
+  Made take(const ScheduledMessage& message) const {
+    if (message.stream == SensorStream::kCamera) return camera(message);
+    Made made;
+    made.push_back(message.stream == SensorStream::kLidar ? maker_.lidar(flight_.lidar(), message)
+                                                          : maker_.pose(flight_.pose(), message));
+    return made;
   }
 
  private:
-  std::int64_t on_clock(const ScheduledMessage& message, double clock_offset_s) const {
-    return sensors_.start_time_s * kNanosecondsPerSecond + message.measured_ns +
-           to_nanoseconds(clock_offset_s);
-  }
-  std::int64_t receipt(const ScheduledMessage& message) const {
-    return sensors_.start_time_s * kNanosecondsPerSecond + message.receive_ns;
-  }
-
-  template <class Message>
-  WriteStep step(std::string topic, const ScheduledMessage& message, Message content) const {
-    return [topic = std::move(topic), t_ns = receipt(message), content = std::move(content)](BagWriter& bag) {
-      bag.write(topic, t_ns, content);
-    };
-  }
-
-  WriteStep pose(const ScheduledMessage& message) const {
-    const std::int64_t stamp_ns = on_clock(message, sensors_.pose_clock_offset_s);
-    const auto sequence = static_cast<std::uint32_t>(message.index);
-    const PoseSensors& sensor = flight_.pose();
-    switch (message.stream) {
-      case SensorStream::kAttitude:
-        return step(kAttitudeTopic, message,
-                    attitude_message(sensor.attitude(message.index), stamp_ns, sequence));
-      case SensorStream::kImu:
-        return step(kImuTopic, message, imu_message(sensor.imu(message.index), stamp_ns, sequence));
-      case SensorStream::kPosition:
-        return step(kPositionTopic, message,
-                    position_message(sensor.position(message.index), stamp_ns, sequence));
-      default:
-        return step(kHeightTopic, message, height_message(sensor.height_m(message.index)));
-    }
-  }
-
-  WriteStep lidar(const ScheduledMessage& message) const {
-    return step(
-        rig_.lidar0->topic, message,
-        lidar_message(flight_.lidar().scan(message.index), on_clock(message, sensors_.lidar.clock_offset_s),
-                      static_cast<std::uint32_t>(message.index)));
-  }
-
-  WriteStep camera(const ScheduledMessage& message) const {
-    const std::int64_t stamp_ns = on_clock(message, sensors_.camera.clock_offset_s);
+  Made camera(const ScheduledMessage& message) const {
     const StereoExposure exposure = flight_.camera().expose_frame(message.index, truth_ != nullptr);
     if (truth_ != nullptr) {
-      truth_->write_frame(stamp_ns, exposure.depth_m,
+      truth_->write_frame(maker_.image_stamp_ns(message), exposure.depth_m,
                           flight_.surface_truth().safe_mask(exposure.depth_m, rectified_.intrinsics,
                                                             exposure.T_world_camera));
     }
-    WriteStep left = image(rig_.cam0.topic, "mynteye_left", message, stamp_ns, exposure.left);
-    WriteStep right = image(rig_.cam1->topic, "mynteye_right", message, stamp_ns, exposure.right);
-    return [left = std::move(left), right = std::move(right)](BagWriter& bag) {
-      left(bag);
-      right(bag);
-    };
-  }
-
-  WriteStep image(const std::string& topic, const std::string& frame, const ScheduledMessage& message,
-                  std::int64_t stamp_ns, const cv::Mat& pixels) const {
-    const auto sequence = static_cast<std::uint32_t>(message.index);
-    if (sensors_.camera.format == ImageFormat::kRaw) {
-      return step(topic, message, image_message(pixels, frame, stamp_ns, sequence));
-    }
-    return step(topic + "/compressed", message,
-                jpeg_message(pixels, sensors_.camera.jpeg_quality, frame, stamp_ns, sequence));
+    auto [left, right] = maker_.images(exposure, message);
+    Made made;
+    made.push_back(std::move(left));
+    made.push_back(std::move(right));
+    return made;
   }
 
   const SimulatedFlight& flight_;
-  const SensorsConfig& sensors_;
-  const Rig& rig_;
+  MessageMaker maker_;
   const RectifiedRig& rectified_;
   const TruthWriter* truth_;
 };
+
+void write(const Made& made, BagWriter& bag) {
+  for (const RecordedMessage& message : made) bag.write(message);
+}
 
 bool is_heavy(const ScheduledMessage& message) {
   return message.stream == SensorStream::kCamera || message.stream == SensorStream::kLidar;
 }
 
 /// Writes the schedule in order while images and scans are made ahead on `threads` threads.
-void write_all(const std::vector<ScheduledMessage>& schedule, const MessageMaker& maker, int threads,
+void write_all(const std::vector<ScheduledMessage>& schedule, const Measurements& measurements, int threads,
                BagWriter& bag, ProgressBar& progress) {
   std::vector<const ScheduledMessage*> heavy;
   for (const ScheduledMessage& message : schedule) {
     if (is_heavy(message)) heavy.push_back(&message);
   }
-  std::deque<std::future<WriteStep>> ahead;
+  std::deque<std::future<Made>> ahead;
   std::size_t next = 0;
   const auto start_more = [&] {
     while (next < heavy.size() && ahead.size() < static_cast<std::size_t>(threads)) {
-      ahead.push_back(std::async(std::launch::async, [&maker, m = heavy[next]] { return maker.make(*m); }));
+      ahead.push_back(
+          std::async(std::launch::async, [&measurements, m = heavy[next]] { return measurements.take(*m); }));
       ++next;
     }
   };
   for (const ScheduledMessage& message : schedule) {
     if (!is_heavy(message)) {
-      maker.make(message)(bag);
+      write(measurements.take(message), bag);
       continue;
     }
     start_more();
-    const WriteStep write = ahead.front().get();
+    const Made made = ahead.front().get();
     ahead.pop_front();
     start_more();
-    write(bag);
+    write(made, bag);
     if (message.stream == SensorStream::kCamera) progress.advance();
   }
 }
@@ -217,9 +164,9 @@ RecordedFlight FlightRecorder::record(const FlightConfig& flight) const {
   BagWriter bag(with_suffix(output_, flight.name, ".bag"), config_.recorder.compression);
   {
     const OpenCvOnOneThread one_thread;
-    const MessageMaker maker(simulated, sensors, rig_, rectified, truth ? &*truth : nullptr);
+    const Measurements measurements(simulated, sensors, rig_, rectified, truth ? &*truth : nullptr);
     ProgressBar progress(flight.name, result.frames, "frames");
-    write_all(schedule, maker, config_.recorder.threads, bag, progress);
+    write_all(schedule, measurements, config_.recorder.threads, bag, progress);
   }
   if (truth_folder) truth_folder->commit();
   result.bag_bytes = bag.commit();

@@ -8,12 +8,6 @@
 
 namespace alight::sim {
 
-/// Topics besides those of the rig, as DJI's SDK names them.
-inline constexpr const char* kAttitudeTopic = "/dji_sdk/attitude";
-inline constexpr const char* kImuTopic = "/dji_sdk/imu";
-inline constexpr const char* kPositionTopic = "/dji_sdk/gps_position";
-inline constexpr const char* kHeightTopic = "/dji_sdk/height_above_takeoff";
-
 /// What a recorded flight holds.
 struct RecordedFlight {
   std::int64_t frames = 0;

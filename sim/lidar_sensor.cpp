@@ -8,7 +8,7 @@
 
 namespace alight::sim {
 
-LidarSensor::LidarSensor(const Renderer& renderer, const Vehicle& vehicle,
+LidarSensor::LidarSensor(const Renderer& renderer, const Motion& vehicle,
                          const Eigen::Isometry3d& T_imu_lidar, const LidarConfig& config, std::uint64_t seed)
     : renderer_(renderer),
       vehicle_(vehicle),

@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 
 #include "sim/counter_random.hpp"
+#include "sim/motion.hpp"
 #include "sim/renderer.hpp"
 #include "sim/sensor_config.hpp"
-#include "sim/vehicle.hpp"
 
 namespace alight::sim {
 
@@ -28,7 +28,7 @@ struct LidarScan {
 class LidarSensor {
  public:
   /// Renderer and vehicle must outlive the sensor.
-  LidarSensor(const Renderer& renderer, const Vehicle& vehicle, const Eigen::Isometry3d& T_imu_lidar,
+  LidarSensor(const Renderer& renderer, const Motion& vehicle, const Eigen::Isometry3d& T_imu_lidar,
               const LidarConfig& config, std::uint64_t seed);
 
   std::int64_t shots_per_packet() const { return shots_per_packet_; }
@@ -39,7 +39,7 @@ class LidarSensor {
   bool detected(const Hit& hit, const Eigen::Vector3d& direction_world, std::uint64_t shot) const;
 
   const Renderer& renderer_;
-  const Vehicle& vehicle_;
+  const Motion& vehicle_;
   Eigen::Isometry3d T_imu_lidar_;
   LidarConfig config_;
   CounterRandom range_random_;

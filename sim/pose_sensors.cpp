@@ -27,12 +27,12 @@ std::vector<Eigen::Vector3d> drift(const GpsConfig& config, double duration_s, s
 
 }  // namespace
 
-PoseSensors::PoseSensors(const Vehicle& vehicle, const SensorsConfig& config, std::uint64_t seed,
+PoseSensors::PoseSensors(const Motion& vehicle, const SensorsConfig& config, std::uint64_t seed,
                          double ground_m)
     : vehicle_(vehicle),
       config_(config),
       seed_(seed),
-      p_home_world_(vehicle.path().at(0).p_world),
+      p_home_world_(vehicle.T_world_imu(0).translation()),
       home_(config.gps.latitude_deg, config.gps.longitude_deg, config.gps.altitude_m),
       drift_m_(drift(config.gps, vehicle.duration_s(), seed)) {
   p_home_world_.z() = ground_m;
@@ -70,14 +70,15 @@ ImuSample PoseSensors::imu(std::int64_t k) const {
 GeodeticFix PoseSensors::position(std::int64_t k) const {
   const Eigen::Vector3d noise_m =
       config_.gps.noise_m * CounterRandom(seed_, RandomStream::kGpsWhite).normal3(counter(k));
-  const Eigen::Vector3d p_world = vehicle_.path().at(time_s(k, config_.gps.rate_hz)).p_world;
+  const Eigen::Vector3d p_world = vehicle_.T_world_imu(time_s(k, config_.gps.rate_hz)).translation();
   const Eigen::Vector3d p_home = p_world - p_home_world_ + drift_m_.at(static_cast<std::size_t>(k)) + noise_m;
   const Eigen::Vector3d geodetic = home_.to_geodetic(p_home);
   return {geodetic.x(), geodetic.y(), geodetic.z()};
 }
 
 double PoseSensors::height_m(std::int64_t k) const {
-  const double z_m = vehicle_.path().at(time_s(k, config_.height.rate_hz)).p_world.z() - p_home_world_.z();
+  const double z_m =
+      vehicle_.T_world_imu(time_s(k, config_.height.rate_hz)).translation().z() - p_home_world_.z();
   return z_m + config_.height.noise_m * CounterRandom(seed_, RandomStream::kHeight).normal(counter(k));
 }
 

@@ -7,8 +7,8 @@
 
 #include "geometry/geodesy.hpp"
 #include "sim/counter_random.hpp"
+#include "sim/motion.hpp"
 #include "sim/sensor_config.hpp"
-#include "sim/vehicle.hpp"
 
 namespace alight::sim {
 
@@ -32,7 +32,7 @@ class PoseSensors {
  public:
   /// @param ground_m height of the ground at the take-off place, which lies below the flight's first
   /// position. The vehicle must outlive the sensors.
-  PoseSensors(const Vehicle& vehicle, const SensorsConfig& config, std::uint64_t seed, double ground_m);
+  PoseSensors(const Motion& vehicle, const SensorsConfig& config, std::uint64_t seed, double ground_m);
 
   Eigen::Quaterniond attitude(std::int64_t k) const;
   ImuSample imu(std::int64_t k) const;
@@ -42,7 +42,7 @@ class PoseSensors {
  private:
   Eigen::Quaterniond noisy_attitude(double t_s, std::uint64_t counter) const;
 
-  const Vehicle& vehicle_;
+  const Motion& vehicle_;
   SensorsConfig config_;
   std::uint64_t seed_;
   Eigen::Vector3d p_home_world_;

@@ -5,7 +5,7 @@
 
 namespace alight::sim {
 
-StereoCamera::StereoCamera(const Renderer& renderer, const Vehicle& vehicle, const RectifiedRig& rig,
+StereoCamera::StereoCamera(const Renderer& renderer, const Motion& vehicle, const RectifiedRig& rig,
                            const CameraConfig& config, std::uint64_t seed)
     : renderer_(renderer),
       vehicle_(vehicle),

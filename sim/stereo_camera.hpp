@@ -6,9 +6,9 @@
 
 #include "geometry/stereo_rectification.hpp"
 #include "sim/counter_random.hpp"
+#include "sim/motion.hpp"
 #include "sim/renderer.hpp"
 #include "sim/sensor_config.hpp"
-#include "sim/vehicle.hpp"
 
 namespace alight::sim {
 
@@ -24,7 +24,7 @@ struct StereoExposure {
 class StereoCamera {
  public:
   /// Renderer and vehicle must outlive the camera.
-  StereoCamera(const Renderer& renderer, const Vehicle& vehicle, const RectifiedRig& rig,
+  StereoCamera(const Renderer& renderer, const Motion& vehicle, const RectifiedRig& rig,
                const CameraConfig& config, std::uint64_t seed);
 
   /// True time of a frame's exposure, from the start of the flight.
@@ -34,7 +34,7 @@ class StereoCamera {
 
  private:
   const Renderer& renderer_;
-  const Vehicle& vehicle_;
+  const Motion& vehicle_;
   RectifiedRig rig_;
   CameraConfig config_;
   CounterRandom left_random_;

@@ -157,6 +157,19 @@ bool SurfaceTruth::cell_at(double x_m, double y_m, int& row, int& column) const 
   return true;
 }
 
+std::optional<GroundCell> SurfaceTruth::ground_at(double x_m, double y_m) const {
+  int row = 0;
+  int column = 0;
+  if (!cell_at(x_m, y_m, row, column)) return std::nullopt;
+  GroundCell cell;
+  cell.elevation_m = elevation_m_.at<float>(row, column);
+  cell.slope_rad = slope_rad_.at<float>(row, column);
+  cell.residual_m = residual_m_.at<float>(row, column);
+  cell.landable = landable_.at<std::uint8_t>(row, column) != 0;
+  cell.safe = safe_.at<std::uint8_t>(row, column) != 0;
+  return cell;
+}
+
 bool SurfaceTruth::is_safe(double x_m, double y_m) const {
   int row = 0;
   int column = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
@@ -28,6 +30,15 @@ struct SafeCircle {
   double radius_m = 0;  ///< 0: there is none
 };
 
+/// What is true of a cell.
+struct GroundCell {
+  double elevation_m = 0;  ///< of the top surface; NaN where nothing was hit
+  double slope_rad = 0;    ///< NaN at the grid's border
+  double residual_m = 0;   ///< NaN at the grid's border
+  bool landable = false;
+  bool safe = false;
+};
+
 /// True elevation, slope and safety of a world, on a grid over its detailed square, seen from straight above.
 /// Maps are row = y, column = x: cell (r, c) is centred at (min + (c + 0.5) cell, min + (r + 0.5) cell), min
 /// = -size/2.
@@ -45,6 +56,8 @@ class SurfaceTruth {
     return clearance_m_;
   }  ///< CV_32FC1, distance to the nearest unsafe cell
 
+  /// Empty outside the grid.
+  std::optional<GroundCell> ground_at(double x_m, double y_m) const;
   /// False outside the grid.
   bool is_safe(double x_m, double y_m) const;
   /// Radius of safe ground around a place; 0 outside the grid.

@@ -45,6 +45,12 @@ std::string to_string(Look look) {
   return "unknown";
 }
 
+std::vector<Look> all_looks() {
+  std::vector<Look> looks;
+  for (const auto& [name, look] : kLookNames) looks.push_back(look);
+  return looks;
+}
+
 World::World(const WorldConfig& config) : size_m_(config.size_m), sun_direction_(sun_of(config)) {
   WorldBuilder builder(config);
   builder.build();

@@ -26,6 +26,8 @@ struct WorldConfig {
 void bind(Binder& b, WorldConfig& c);
 /// The look's name in YAML.
 std::string to_string(Look look);
+/// Every look, in the order of the enumeration.
+std::vector<Look> all_looks();
 
 /// A place: relief, roads, fields, buildings, plants, water; as triangles with surfaces. Frame:
 /// East-North-Up, metres, origin in the middle at ground height. The detailed square is |x|, |y| <= size_m /

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/frames.hpp"
-#include "tests/faults/fault_injector.hpp"
+#include "sim/fault_injector.hpp"
 #include "tests/faults/simulated_truth.hpp"
 #ifdef ALIGHT_FAULTS_WITH_NETWORK
 #include "infer/network_predictor.hpp"
@@ -20,6 +20,11 @@
 
 namespace alight {
 namespace {
+
+using sim::all_faults;
+using sim::Fault;
+using sim::Messages;
+using sim::TimedMessage;
 
 namespace fs = std::filesystem;
 
@@ -169,7 +174,7 @@ Messages shortened(const Messages& flight, std::int64_t fault_ns, int image_step
 
 TEST_P(Faults, LidarAlone) {
   const Fault& fault = fault_of(GetParam());
-  Messages flight = fault.inject(truth_->messages(), fault_ns());
+  Messages flight = sim::inject(fault, truth_->messages(), fault_ns());
 #ifdef ALIGHT_FAULTS_SHORT
   flight = shortened(flight, fault_ns(), 1);
 #endif
@@ -211,7 +216,7 @@ TEST_P(Faults, ShippedNetwork) {
     GTEST_SKIP() << "flown by scripts/faults.sh (ALIGHT_FAULTS_THOROUGH=1)";
   }
   const Messages flight =
-      shortened(fault.inject(truth_->messages(), fault_ns()), fault_ns(), network_image_step());
+      shortened(sim::inject(fault, truth_->messages(), fault_ns()), fault_ns(), network_image_step());
   const Outcome outcome = fly(flight, &fault, shipped_network(truth_->rig()));
   row("network", fault.name, outcome);
   expect_noticed(fault, fault.state, outcome);

@@ -5,8 +5,8 @@
 
 #include "geometry/rig.hpp"
 #include "infer/landing_pipeline.hpp"
+#include "sim/fault_injector.hpp"
 #include "sim/simulated_flight.hpp"
-#include "tests/faults/fault_injector.hpp"
 
 namespace alight {
 
@@ -17,7 +17,7 @@ class SimulatedTruth {
   explicit SimulatedTruth(const std::filesystem::path& folder);
 
   const Rig& rig() const { return rig_; }
-  const Messages& messages() const { return messages_; }
+  const sim::Messages& messages() const { return messages_; }
   /// True time of the flight's begin, on the messages' clock.
   std::int64_t begin_ns() const { return begin_ns_; }
 
@@ -29,7 +29,7 @@ class SimulatedTruth {
   Rig rig_;
   std::unique_ptr<sim::SimulatedFlight> flight_;
   Eigen::Isometry3d T_camera_imu_ = Eigen::Isometry3d::Identity();
-  Messages messages_;
+  sim::Messages messages_;
   std::int64_t begin_ns_ = 0;
 };
 

@@ -26,6 +26,7 @@
 #include "geometry/stereo_rectification.hpp"
 #include "geometry/trajectory.hpp"
 #include "sim/livox_scan.hpp"
+#include "sim/message_maker.hpp"
 #include "sim/message_schedule.hpp"
 #include "sim/sensor_messages.hpp"
 #include "sim/simulated_flight.hpp"

@@ -30,7 +30,8 @@ TEST_P(EveryTool, VersionIsPrinted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tools, EveryTool,
-                         ::testing::Values("alight-sim", "alight-dataset", "alight-train", "alight-evaluate",
+                         ::testing::Values("alight-sim", "alight-sim land", "alight-sim campaign",
+                                           "alight-dataset", "alight-train", "alight-evaluate",
                                            "alight-evaluate depth", "alight-evaluate self", "alight-export",
                                            "alight-infer"));
 

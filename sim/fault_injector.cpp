@@ -1,4 +1,4 @@
-#include "tests/faults/fault_injector.hpp"
+#include "sim/fault_injector.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -8,23 +8,21 @@
 
 #include "geometry/frames.hpp"
 
-namespace alight {
+namespace alight::sim {
 namespace {
 
-/// Changes the messages of one type that come from `from_ns` on; `change` returns false to drop one.
+/// Changes the messages of one type that come from `from_ns` on; `change` returns false to lose one.
 template <class Message, class Change>
-Messages changed(Messages flight, std::int64_t from_ns, Change change) {
-  const auto dropped = [&](TimedMessage& timed) {
+FaultFilter changed(std::int64_t from_ns, Change change) {
+  return [from_ns, change](TimedMessage& timed) mutable {
     auto* message = std::get_if<Message>(&timed.message);
-    return message != nullptr && timed.receive_ns >= from_ns && !change(*message);
+    return message == nullptr || timed.receive_ns < from_ns || change(*message);
   };
-  flight.erase(std::remove_if(flight.begin(), flight.end(), dropped), flight.end());
-  return flight;
 }
 
 template <class Message>
-Messages lost(const Messages& flight, std::int64_t from_ns) {
-  return changed<Message>(flight, from_ns, [](Message&) { return false; });
+FaultFilter lost(std::int64_t from_ns) {
+  return changed<Message>(from_ns, [](Message&) { return false; });
 }
 
 void shift_stamps(LidarPacket& packet, std::int64_t by_ns) {
@@ -36,8 +34,8 @@ void shift_stamps(Message& message, std::int64_t by_ns) {
   message.t_ns += by_ns;
 }
 template <class Message>
-Messages stamps_shifted(const Messages& flight, std::int64_t from_ns, double by_s) {
-  return changed<Message>(flight, from_ns, [by_s](Message& message) {
+FaultFilter stamps_shifted(std::int64_t from_ns, double by_s) {
+  return changed<Message>(from_ns, [by_s](Message& message) {
     shift_stamps(message, to_nanoseconds(by_s));
     return true;
   });
@@ -51,9 +49,9 @@ cv::Mat exposed_to(const cv::Mat& image, double level, std::int64_t t_ns) {
   return noise;
 }
 
-Messages camera_frozen(const Messages& flight, std::int64_t from_ns) {
+FaultFilter camera_frozen(std::int64_t from_ns) {
   StereoFrame last;
-  return changed<StereoFrame>(flight, from_ns, [last](StereoFrame& frame) mutable {
+  return changed<StereoFrame>(from_ns, [last](StereoFrame& frame) mutable {
     if (last.left.empty()) last = frame;
     frame.left = last.left;
     frame.right = last.right;
@@ -61,56 +59,54 @@ Messages camera_frozen(const Messages& flight, std::int64_t from_ns) {
   });
 }
 
-Messages camera_black(const Messages& flight, std::int64_t from_ns) {
-  return changed<StereoFrame>(flight, from_ns, [](StereoFrame& frame) {
+FaultFilter camera_black(std::int64_t from_ns) {
+  return changed<StereoFrame>(from_ns, [](StereoFrame& frame) {
     frame.left = exposed_to(frame.left, 2, frame.t_ns);
     frame.right = exposed_to(frame.right, 2, frame.t_ns + 1);
     return true;
   });
 }
 
-Messages camera_over_exposed(const Messages& flight, std::int64_t from_ns) {
-  return changed<StereoFrame>(flight, from_ns, [](StereoFrame& frame) {
+FaultFilter camera_over_exposed(std::int64_t from_ns) {
+  return changed<StereoFrame>(from_ns, [](StereoFrame& frame) {
     frame.left = cv::Mat(frame.left * 3 + cv::Scalar::all(60));  // the healthy flight shares the pixels
     frame.right = cv::Mat(frame.right * 3 + cv::Scalar::all(60));
     return true;
   });
 }
 
-Messages right_lost(const Messages& flight, std::int64_t from_ns) {
-  return changed<StereoFrame>(flight, from_ns, [](StereoFrame& frame) {
+FaultFilter right_lost(std::int64_t from_ns) {
+  return changed<StereoFrame>(from_ns, [](StereoFrame& frame) {
     frame.right = cv::Mat();
     return true;
   });
 }
 
-Messages eyes_swapped(const Messages& flight, std::int64_t from_ns) {
-  return changed<StereoFrame>(flight, from_ns, [](StereoFrame& frame) {
+FaultFilter eyes_swapped(std::int64_t from_ns) {
+  return changed<StereoFrame>(from_ns, [](StereoFrame& frame) {
     std::swap(frame.left, frame.right);
     return true;
   });
 }
 
 /// What the eyes show is `frames` exposures old.
-Messages eyes_late(const Messages& flight, std::int64_t from_ns, bool left_too, std::size_t frames) {
-  Messages late = flight;
-  std::deque<StereoFrame> before;
-  for (TimedMessage& timed : late) {
+FaultFilter eyes_late(std::int64_t from_ns, bool left_too, std::size_t frames) {
+  return [=, before = std::deque<StereoFrame>()](TimedMessage& timed) mutable {
     auto* frame = std::get_if<StereoFrame>(&timed.message);
-    if (frame == nullptr) continue;
+    if (frame == nullptr) return true;
     before.push_back(*frame);
-    if (before.size() <= frames) continue;
+    if (before.size() <= frames) return true;
     if (timed.receive_ns >= from_ns) {
       frame->right = before.front().right;
       if (left_too) frame->left = before.front().left;
     }
     before.pop_front();
-  }
-  return late;
+    return true;
+  };
 }
 
-Messages lidar_half(const Messages& flight, std::int64_t from_ns) {
-  return changed<LidarPacket>(flight, from_ns, [](LidarPacket& packet) {
+FaultFilter lidar_half(std::int64_t from_ns) {
+  return changed<LidarPacket>(from_ns, [](LidarPacket& packet) {
     std::vector<LidarReturn> half;
     for (std::size_t i = 0; i < packet.returns.size(); i += 2) half.push_back(packet.returns[i]);
     packet.returns = std::move(half);
@@ -119,9 +115,9 @@ Messages lidar_half(const Messages& flight, std::int64_t from_ns) {
   });
 }
 
-Messages lidar_frozen(const Messages& flight, std::int64_t from_ns) {
+FaultFilter lidar_frozen(std::int64_t from_ns) {
   LidarPacket last;
-  return changed<LidarPacket>(flight, from_ns, [last](LidarPacket& packet) mutable {
+  return changed<LidarPacket>(from_ns, [last](LidarPacket& packet) mutable {
     if (last.returns.empty()) last = packet;
     const std::int64_t t_ns = packet.t_ns;
     packet = last;
@@ -131,9 +127,9 @@ Messages lidar_frozen(const Messages& flight, std::int64_t from_ns) {
 }
 
 /// Drops send back 8 % of the shots from anywhere on the way to the ground.
-Messages lidar_rain(const Messages& flight, std::int64_t from_ns) {
+FaultFilter lidar_rain(std::int64_t from_ns) {
   std::mt19937 random(7);
-  return changed<LidarPacket>(flight, from_ns, [random](LidarPacket& packet) mutable {
+  return changed<LidarPacket>(from_ns, [random](LidarPacket& packet) mutable {
     std::uniform_real_distribution<float> uniform(0, 1);
     for (LidarReturn& echo : packet.returns) {
       if (uniform(random) < 0.08F) echo.p_lidar *= 0.1F + 0.6F * uniform(random);
@@ -142,63 +138,55 @@ Messages lidar_rain(const Messages& flight, std::int64_t from_ns) {
   });
 }
 
-Messages lidar_mirrored(const Messages& flight, std::int64_t from_ns, const Eigen::Vector3f& signs) {
-  return changed<LidarPacket>(flight, from_ns, [signs](LidarPacket& packet) {
+FaultFilter lidar_mirrored(std::int64_t from_ns, const Eigen::Vector3f& signs) {
+  return changed<LidarPacket>(from_ns, [signs](LidarPacket& packet) {
     for (LidarReturn& echo : packet.returns) echo.p_lidar = echo.p_lidar.cwiseProduct(signs);
     return true;
   });
 }
 
-Messages position_jumps(const Messages& flight, std::int64_t from_ns) {
-  return changed<PositionSample>(flight, from_ns, [](PositionSample& sample) {
+FaultFilter position_jumps(std::int64_t from_ns) {
+  return changed<PositionSample>(from_ns, [](PositionSample& sample) {
     sample.latitude_deg += 2.0 / 111'320;
     return true;
   });
 }
 
-Messages attitude_frozen(const Messages& flight, std::int64_t from_ns) {
+FaultFilter attitude_frozen(std::int64_t from_ns) {
   std::vector<Eigen::Quaterniond> last;
-  return changed<AttitudeSample>(flight, from_ns, [last](AttitudeSample& sample) mutable {
+  return changed<AttitudeSample>(from_ns, [last](AttitudeSample& sample) mutable {
     if (last.empty()) last.push_back(sample.q_world_imu);
     sample.q_world_imu = last.front();
     return true;
   });
 }
 
-Messages in_order_of_arrival(Messages flight) {
-  std::stable_sort(flight.begin(), flight.end(),
-                   [](const auto& a, const auto& b) { return a.receive_ns < b.receive_ns; });
-  return flight;
-}
-
-Messages out_of_order(const Messages& flight, std::int64_t from_ns) {
-  Messages mixed = flight;
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> delay_s(0, 0.2);
-  for (TimedMessage& timed : mixed) {
+FaultFilter out_of_order(std::int64_t from_ns) {
+  return [from_ns, random = std::mt19937(3)](TimedMessage& timed) mutable {
+    std::uniform_real_distribution<double> delay_s(0, 0.2);
     if (timed.receive_ns >= from_ns) timed.receive_ns += to_nanoseconds(delay_s(random));
-  }
-  return in_order_of_arrival(std::move(mixed));
+    return true;
+  };
 }
 
-Messages all_late(const Messages& flight, std::int64_t from_ns) {
-  Messages late = flight;
-  for (TimedMessage& timed : late) {
+FaultFilter all_late(std::int64_t from_ns) {
+  return [from_ns](TimedMessage& timed) {
     if (timed.receive_ns >= from_ns) timed.receive_ns += to_nanoseconds(0.4);
-  }
-  return late;
+    return true;
+  };
 }
 
-Messages autopilot_clock_jumps(const Messages& flight, std::int64_t from_ns) {
-  return stamps_shifted<AttitudeSample>(
-      stamps_shifted<PositionSample>(stamps_shifted<HeightSample>(flight, from_ns, 1.0), from_ns, 1.0),
-      from_ns, 1.0);
+FaultFilter autopilot_clock_jumps(std::int64_t from_ns) {
+  return [attitude = stamps_shifted<AttitudeSample>(from_ns, 1.0),
+          position = stamps_shifted<PositionSample>(from_ns, 1.0),
+          height = stamps_shifted<HeightSample>(from_ns, 1.0)](TimedMessage& timed) mutable {
+    return attitude(timed) && position(timed) && height(timed);
+  };
 }
 
 }  // namespace
 
 const std::vector<Fault>& all_faults() {
-  using M = const Messages&;
   using T = std::int64_t;
   static const std::vector<Fault> kFaults = {
       {"camera lost", "left camera", "lost", "degraded", lost<StereoFrame>},
@@ -208,29 +196,27 @@ const std::vector<Fault>& all_faults() {
       {"right eye lost", "right camera", "lost", "degraded", right_lost},
       {"eyes swapped", "stereo", "eyes swapped", "degraded", eyes_swapped},
       {"right eye 0.2 s late", "stereo", "eyes misaligned", "degraded",
-       [](M f, T t) { return eyes_late(f, t, false, 2); }},
-      {"both eyes 0.2 s late, stamps as if not", "", "", "",
-       [](M f, T t) { return eyes_late(f, t, true, 2); }},
+       [](T t) { return eyes_late(t, false, 2); }},
+      {"both eyes 0.2 s late, stamps as if not", "", "", "", [](T t) { return eyes_late(t, true, 2); }},
       {"camera clock 0.3 s ahead", "left camera", "clock jump", "degraded",
-       [](M f, T t) { return stamps_shifted<StereoFrame>(f, t, 0.3); }},
+       [](T t) { return stamps_shifted<StereoFrame>(t, 0.3); }},
       {"camera clock 2 s behind", "left camera", "clock jump", "degraded",
-       [](M f, T t) { return stamps_shifted<StereoFrame>(f, t, -2); }},
+       [](T t) { return stamps_shifted<StereoFrame>(t, -2); }},
       {"LiDAR lost", "lidar", "lost", "degraded", lost<LidarPacket>},
       {"LiDAR half of the points", "lidar", "points missing", "degraded", lidar_half},
       {"LiDAR frozen", "lidar", "frozen", "degraded", lidar_frozen},
       {"LiDAR rain", "lidar", "noise", "degraded", lidar_rain},
       {"LiDAR mirrored left-right", "lidar", "mirrored", "degraded",
-       [](M f, T t) {
-         return lidar_mirrored(f, t, {1, -1, 1});
+       [](T t) {
+         return lidar_mirrored(t, {1, -1, 1});
        }},
       {"LiDAR mirrored front-back", "lidar", "mirrored", "degraded",
-       [](M f, T t) {
-         return lidar_mirrored(f, t, {1, 1, -1});
+       [](T t) {
+         return lidar_mirrored(t, {1, 1, -1});
        }},
       {"LiDAR clock 2 s ahead", "lidar", "clock jump", "degraded",
-       [](M f, T t) { return stamps_shifted<LidarPacket>(f, t, 2); }},
-      {"LiDAR clock 0.1 s behind", "", "", "",
-       [](M f, T t) { return stamps_shifted<LidarPacket>(f, t, -0.1); }},
+       [](T t) { return stamps_shifted<LidarPacket>(t, 2); }},
+      {"LiDAR clock 0.1 s behind", "", "", "", [](T t) { return stamps_shifted<LidarPacket>(t, -0.1); }},
       {"position jumps by 2 m", "position", "jump", "failed", position_jumps},
       {"position lost", "position", "lost", "failed", lost<PositionSample>},
       {"attitude lost", "attitude", "lost", "failed", lost<AttitudeSample>},
@@ -242,4 +228,22 @@ const std::vector<Fault>& all_faults() {
   return kFaults;
 }
 
-}  // namespace alight
+const Fault* find_fault(const std::string& name) {
+  for (const Fault& fault : all_faults()) {
+    if (fault.name == name) return &fault;
+  }
+  return nullptr;
+}
+
+Messages inject(const Fault& fault, const Messages& flight, std::int64_t from_ns) {
+  const FaultFilter filter = fault.begin(from_ns);
+  Messages broken;
+  for (TimedMessage timed : flight) {
+    if (filter(timed)) broken.push_back(std::move(timed));
+  }
+  std::stable_sort(broken.begin(), broken.end(),
+                   [](const auto& a, const auto& b) { return a.receive_ns < b.receive_ns; });
+  return broken;
+}
+
+}  // namespace alight::sim

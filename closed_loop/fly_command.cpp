@@ -1,12 +1,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <spdlog/spdlog.h>
 
 #include "cli/command_line.hpp"
+#include "closed_loop/commands.hpp"
 #include "sim/flight_recorder.hpp"
 #include "sim/flight_score.hpp"
 
@@ -88,26 +90,23 @@ void add_score_options(CLI::App& app, ScoreOptions& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app("Flies a simulated vehicle over made-up places and writes ROS bags with their truth.",
-               "alight-sim");
-  app.footer(
-      "Examples:\n"
-      "  alight-sim --config configs/sim/demo.yaml --output logs/\n"
-      "  alight-sim --config configs/sim/demo.yaml --output logs/ --flight village_held_out --set "
-      "sensors.noise=off\n"
-      "  alight-sim --print-config > my_flights.yaml\n"
-      "  alight-sim score --truth logs/village_held_out.truth --results out/results.jsonl --require-accepted "
-      "1");
-  FlyOptions flying;
-  alight::add_config_options(app, flying.config);
-  app.add_option("-o,--output", flying.output, "Folder for <flight>.bag and <flight>.truth/");
-  app.add_option("--flight", flying.only, "Fly only this flight of the configuration (repeatable)")
+namespace alight::closed_loop {
+
+Command add_fly_command(CLI::App& app) {
+  auto options = std::make_shared<FlyOptions>();
+  add_config_options(app, options->config);
+  app.add_option("-o,--output", options->output, "Folder for <flight>.bag and <flight>.truth/");
+  app.add_option("--flight", options->only, "Fly only this flight of the configuration (repeatable)")
       ->allow_extra_args(false);
-  ScoreOptions scoring;
-  CLI::App* score_command =
-      app.add_subcommand("score", "Holds the landing sites of alight-infer against the truth");
-  add_score_options(*score_command, scoring);
-  return alight::run_tool(app, argc, argv,
-                          [&] { return score_command->parsed() ? score(scoring) : fly(flying); });
+  return {&app, [options] { return fly(*options); }};
 }
+
+Command add_score_command(CLI::App& app) {
+  auto options = std::make_shared<ScoreOptions>();
+  CLI::App* command =
+      app.add_subcommand("score", "Holds the landing sites of alight-infer against the truth");
+  add_score_options(*command, *options);
+  return {command, [options] { return score(*options); }};
+}
+
+}  // namespace alight::closed_loop

@@ -1,0 +1,105 @@
+#include "closed_loop/landing_flight.hpp"
+
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "closed_loop/landing_pictures.hpp"
+#include "dataset/flight_log.hpp"
+
+namespace alight::closed_loop {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A small open place from low above, without a camera: seconds to fly.
+LandConfig quick() {
+  LandConfig config;
+  config.rig = (fs::path(ALIGHT_SOURCE_DIR) / "configs" / "rigs" / "paper.yaml").string();
+  config.world.look = sim::Look::kFarmland;
+  config.world.seed = 100002;
+  config.world.size_m = 70;
+  config.flight.images = false;
+  config.flight.start_height_m = 12;
+  config.flight.clear_above_m = 3;
+  config.mission.geofence_radius_m = 6;
+  return config;
+}
+
+/// The row without what a computer's speed decides.
+std::string row(FlownLanding flown) {
+  flown.result.cost_s = 0;
+  return to_json(flown.result);
+}
+
+class LandingFlightTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("alight_landing_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    flight_ = new LandingFlight(quick(), 100002, nullptr);
+    sim::BagWriter bag(folder_ / "log.bag", sim::BagCompression::kNone);
+    flown_ = new FlownLanding(flight_->fly(&bag));
+    bag.commit();
+  }
+  static void TearDownTestSuite() {
+    fs::remove_all(folder_);
+    delete flown_;
+    delete flight_;
+  }
+  inline static fs::path folder_;
+  inline static LandingFlight* flight_ = nullptr;
+  inline static FlownLanding* flown_ = nullptr;
+};
+
+TEST_F(LandingFlightTest, LandsOnTrulySafeGround) {
+  const LandingResult& result = flown_->result;
+  ASSERT_EQ(result.outcome, Outcome::kSafe) << describe(result, 3);
+  ASSERT_TRUE(result.footprint);
+  EXPECT_LT(result.footprint->slope_deg, 10);
+  EXPECT_LT(result.footprint->residual_m, 0.1);
+  EXPECT_EQ(result.footprint->landable_share, 1);
+  EXPECT_GE(result.footprint->clearance_m, LandFlightConfig().body_radius_m);
+  EXPECT_LT(result.miss_m, 0.6);
+  EXPECT_GT(result.frames_with_depth, 50);
+  // On the ground: the IMU hangs a skid's height over it.
+  const double ground_m = flight_->surface_truth().elevation_m(result.p_end.x(), result.p_end.y());
+  EXPECT_NEAR(result.p_end.z() - ground_m, LandFlightConfig().skid_height_m, 0.15);
+}
+
+TEST_F(LandingFlightTest, TheSameSeedGivesTheSameLanding) {
+  LandingFlight again(quick(), 100002, nullptr);
+  EXPECT_EQ(row(again.fly()), row(*flown_));
+}
+
+TEST_F(LandingFlightTest, TheBagHoldsWhatTheEngineGot) {
+  const Rig rig = load_rig(quick().rig);
+  // A bag without images is no flight log of this rig: the reader says so instead of reading on.
+  EXPECT_THROW(FlightLog(folder_ / "log.bag", rig, {}), DataError);
+  EXPECT_GT(fs::file_size(folder_ / "log.bag"), 1000u * 1000u);
+}
+
+TEST_F(LandingFlightTest, ItsPicturesShowTheEnd) {
+  const cv::Mat top = top_picture(*flown_, flight_->surface_truth(), 0.85);
+  const cv::Mat side = trajectory_picture(*flown_, flight_->surface_truth());
+  ASSERT_EQ(top.type(), CV_8UC3);
+  ASSERT_EQ(side.type(), CV_8UC3);
+  cv::Mat mark;
+  cv::inRange(top, cv::Scalar(0, 255, 0), cv::Scalar(0, 255, 0), mark);
+  EXPECT_GT(cv::countNonZero(mark), 10);  // the footprint's circle
+}
+
+TEST_F(LandingFlightTest, WithoutPositionItGivesUpAndSaysSo) {
+  LandConfig config = quick();
+  config.mission.hold_timeout_s = 2;
+  LandingFlight flight(config, 100002, nullptr, {sim::find_fault("position lost"), 2.0});
+  const LandingResult result = flight.fly().result;
+  EXPECT_EQ(result.outcome, Outcome::kGaveUp) << describe(result, 3);
+  EXPECT_FALSE(result.footprint);
+  EXPECT_NE(result.reason.find("sensors stay failed"), std::string::npos) << result.reason;
+}
+
+}  // namespace
+}  // namespace alight::closed_loop
