@@ -23,6 +23,9 @@ enum class RandomStream : std::uint64_t {
   kHeight,
   kFlightPlan,
   kSway,
+  kLidarFootprint,
+  kLidarReflectivity,
+  kBoardScene,
 };
 
 /// Random numbers as a pure function of (seed, stream, counter): the same on every run and for every number

@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/command_line.hpp"
+#include "sim/board_recorder.hpp"
 #include "sim/flight_recorder.hpp"
 #include "sim/flight_score.hpp"
 
@@ -18,6 +19,11 @@ struct FlyOptions {
   alight::ConfigOptions config;
   std::filesystem::path output;
   std::vector<std::string> only;
+};
+
+struct BoardOptions {
+  alight::ConfigOptions config;
+  std::filesystem::path output;
 };
 
 struct ScoreOptions {
@@ -60,6 +66,14 @@ int fly(const FlyOptions& options) {
   return alight::kExitOk;
 }
 
+int record_boards(const BoardOptions& options) {
+  const auto config = alight::load<alight::sim::BoardSceneConfig>(options.config);
+  if (alight::print_if_asked(options.config, config)) return alight::kExitOk;
+  if (options.output.empty()) throw ConfigError("--output: is missing; name the folder for the recordings");
+  for (const auto& bag : alight::sim::record_boards(config, options.output)) std::printf("%s\n", bag.c_str());
+  return alight::kExitOk;
+}
+
 int score(const ScoreOptions& options) {
   const alight::sim::FlightScore result = alight::sim::score_flight(options.truth, options.results);
   std::fputs(alight::sim::format_score(result).c_str(), stdout);
@@ -97,6 +111,7 @@ int main(int argc, char** argv) {
       "  alight-sim --config configs/sim/demo.yaml --output logs/ --flight village_held_out --set "
       "sensors.noise=off\n"
       "  alight-sim --print-config > my_flights.yaml\n"
+      "  alight-sim board --config configs/sim/board.yaml --output boards/\n"
       "  alight-sim score --truth logs/village_held_out.truth --results out/results.jsonl --require-accepted "
       "1");
   FlyOptions flying;
@@ -104,10 +119,18 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", flying.output, "Folder for <flight>.bag and <flight>.truth/");
   app.add_option("--flight", flying.only, "Fly only this flight of the configuration (repeatable)")
       ->allow_extra_args(false);
+  BoardOptions boards;
+  CLI::App* board_command =
+      app.add_subcommand("board", "Records a chessboard in front of the rig, for alight-calibrate");
+  alight::add_config_options(*board_command, boards.config);
+  board_command->add_option("-o,--output", boards.output,
+                            "Folder for board_00.bag and so on; must not exist");
   ScoreOptions scoring;
   CLI::App* score_command =
       app.add_subcommand("score", "Holds the landing sites of alight-infer against the truth");
   add_score_options(*score_command, scoring);
-  return alight::run_tool(app, argc, argv,
-                          [&] { return score_command->parsed() ? score(scoring) : fly(flying); });
+  return alight::run_tool(app, argc, argv, [&] {
+    if (board_command->parsed()) return record_boards(boards);
+    return score_command->parsed() ? score(scoring) : fly(flying);
+  });
 }
