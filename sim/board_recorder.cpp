@@ -44,6 +44,7 @@ class BoardScene {
         T_world_camera_(vehicle_.T_world_imu(0) * rectified.T_camera_imu.inverse()),
         world_(board_world(config.board, T_world_camera_ * T_camera_board)),
         renderer_(world_, config.renderer) {
+    sensors_.lidar.sensor_seed = config.seed;
     if (config.sensors.noise == Noise::kOff) return;
     const auto bias = [&](std::uint64_t seed) {
       return config.range_bias_m * CounterRandom(seed, RandomStream::kLidarRange).child(1).normal(0);

@@ -35,7 +35,7 @@ struct BoardSceneConfig {
   /// Random: the LiDAR turned about its boresight by a multiple of 90 deg and up to 10 deg more, tilted by up to 4 deg
   /// about each other axis, moved by up to 0.15 m an axis.
   Mounting mounting = Mounting::kAsRig;
-  std::int64_t seed = 1;
+  std::int64_t seed = 1;  ///< of mounting, poses, noise, and which LiDAR it is
   PrintedBoard board;
   int scenes = 12;
   double duration_s = 3;  ///< of each scene

@@ -25,6 +25,7 @@ enum class RandomStream : std::uint64_t {
   kSway,
   kLidarFootprint,
   kLidarReflectivity,
+  kLidarAngles,
   kBoardScene,
 };
 

@@ -54,6 +54,30 @@ Hit merge_footprint(const Hit* rays) {
   return best;
 }
 
+/// The terms of a smooth error over the field of view, such as wedges and bearings leave behind, at most 1 inside it and
+/// of mean zero over it.
+std::array<double, 5> angle_terms(const Eigen::Vector3d& direction) {
+  const double y = direction.y() / std::sin(kLivoxHalfFov_rad);
+  const double z = direction.z() / std::sin(kLivoxHalfFov_rad);
+  return {y, z, y * y - 0.25, y * z, z * z - 0.25};
+}
+
+/// Their coefficients, scaled so that the error is at most what the configuration says. What would be a turn of the
+/// whole sensor is left out: that is its mounting.
+std::array<Eigen::Vector2d, 5> angle_error(const LidarConfig& config) {
+  const CounterRandom random(static_cast<std::uint64_t>(config.sensor_seed), RandomStream::kLidarAngles);
+  std::array<Eigen::Vector2d, 5> error;
+  for (std::size_t k = 0; k < error.size(); ++k)
+    error[k] = {random.uniform(2 * k, -1, 1), random.uniform(2 * k + 1, -1, 1)};
+  const double roll = 0.5 * (error[0].y() - error[1].x());
+  error[0].y() -= roll;
+  error[1].x() += roll;
+  double sum = 0;
+  for (const Eigen::Vector2d& term : error) sum += term.norm();
+  for (Eigen::Vector2d& term : error) term *= to_radians(config.angle_error_deg) / sum;
+  return error;
+}
+
 }  // namespace
 
 LidarSensor::LidarSensor(const Renderer& renderer, const Vehicle& vehicle,
@@ -66,6 +90,7 @@ LidarSensor::LidarSensor(const Renderer& renderer, const Vehicle& vehicle,
       detection_random_(seed, RandomStream::kLidarDetection),
       footprint_random_(seed, RandomStream::kLidarFootprint),
       reflectivity_random_(seed, RandomStream::kLidarReflectivity),
+      angle_error_rad_(angle_error(config)),
       shots_per_packet_(to_nanoseconds(config.packet_s) / kLivoxShotPeriod_ns),
       first_shot_(static_cast<std::int64_t>(CounterRandom(seed, RandomStream::kLidarStart).bits(0) %
                                             static_cast<std::uint64_t>(kLivoxPatternShots))) {}
@@ -82,6 +107,14 @@ bool LidarSensor::detected(const Hit& hit, const Eigen::Vector3d& direction_worl
   return detection_random_.uniform(shot) >= config_.dark_loss * darkness;
 }
 
+Eigen::Vector3d LidarSensor::beam(const Eigen::Vector3d& reported) const {
+  if (config_.angle_error_deg <= 0) return reported;
+  const std::array<double, 5> terms = angle_terms(reported);
+  Eigen::Vector3d beam = reported;
+  for (std::size_t k = 0; k < terms.size(); ++k) beam.tail<2>() += terms[k] * angle_error_rad_[k];
+  return beam.normalized();
+}
+
 std::vector<Hit> LidarSensor::echoes(std::int64_t first, const std::vector<Eigen::Isometry3d>& T_world_lidar,
                                      const std::vector<Eigen::Vector3d>& directions_lidar) const {
   const bool wide = config_.divergence_up_deg > 0 || config_.divergence_across_deg > 0;
@@ -92,10 +125,10 @@ std::vector<Hit> LidarSensor::echoes(std::int64_t first, const std::vector<Eigen
   directions.reserve(rays * directions_lidar.size());
   for (std::size_t i = 0; i < directions_lidar.size(); ++i) {
     const std::uint64_t counter = 2 * rays * (static_cast<std::uint64_t>(first) + i);
+    const Eigen::Vector3d centre = beam(directions_lidar[i]);
     for (std::size_t k = 0; k < rays; ++k) {
       const Eigen::Vector3d ray =
-          wide ? footprint_ray(directions_lidar[i], config_, footprint_random_, counter + 2 * k, k)
-               : directions_lidar[i];
+          wide ? footprint_ray(centre, config_, footprint_random_, counter + 2 * k, k) : centre;
       origins.push_back(T_world_lidar[i].translation());
       directions.emplace_back(T_world_lidar[i].linear() * ray);
     }

@@ -39,6 +39,10 @@ struct LidarConfig {
   /// 0.28 (up) and 0.03 (across).
   double divergence_up_deg = 0;
   double divergence_across_deg = 0;
+  /// Largest error of the reported beam directions, which changes smoothly over the field of view and belongs to the
+  /// one sensor that `sensor_seed` stands for.
+  double angle_error_deg = 0;
+  std::int64_t sensor_seed = 1;
 };
 void bind(Binder& b, LidarConfig& c);
 
