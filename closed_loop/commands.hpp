@@ -17,6 +17,7 @@ struct Command {
 };
 
 Command add_fly_command(CLI::App& app);  ///< without a subcommand
+Command add_board_command(CLI::App& app);
 Command add_score_command(CLI::App& app);
 Command add_land_command(CLI::App& app);
 Command add_campaign_command(CLI::App& app);

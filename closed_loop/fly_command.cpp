@@ -9,6 +9,7 @@
 
 #include "cli/command_line.hpp"
 #include "closed_loop/commands.hpp"
+#include "sim/board_recorder.hpp"
 #include "sim/flight_recorder.hpp"
 #include "sim/flight_score.hpp"
 
@@ -20,6 +21,11 @@ struct FlyOptions {
   alight::ConfigOptions config;
   std::filesystem::path output;
   std::vector<std::string> only;
+};
+
+struct BoardOptions {
+  alight::ConfigOptions config;
+  std::filesystem::path output;
 };
 
 struct ScoreOptions {
@@ -62,6 +68,14 @@ int fly(const FlyOptions& options) {
   return alight::kExitOk;
 }
 
+int record_boards(const BoardOptions& options) {
+  const auto config = alight::load<alight::sim::BoardSceneConfig>(options.config);
+  if (alight::print_if_asked(options.config, config)) return alight::kExitOk;
+  if (options.output.empty()) throw ConfigError("--output: is missing; name the folder for the recordings");
+  for (const auto& bag : alight::sim::record_boards(config, options.output)) std::printf("%s\n", bag.c_str());
+  return alight::kExitOk;
+}
+
 int score(const ScoreOptions& options) {
   const alight::sim::FlightScore result = alight::sim::score_flight(options.truth, options.results);
   std::fputs(alight::sim::format_score(result).c_str(), stdout);
@@ -99,6 +113,15 @@ Command add_fly_command(CLI::App& app) {
   app.add_option("--flight", options->only, "Fly only this flight of the configuration (repeatable)")
       ->allow_extra_args(false);
   return {&app, [options] { return fly(*options); }};
+}
+
+Command add_board_command(CLI::App& app) {
+  auto options = std::make_shared<BoardOptions>();
+  CLI::App* command =
+      app.add_subcommand("board", "Records a chessboard in front of the rig, for alight-calibrate");
+  add_config_options(*command, options->config);
+  command->add_option("-o,--output", options->output, "Folder for board_00.bag and so on; must not exist");
+  return {command, [options] { return record_boards(*options); }};
 }
 
 Command add_score_command(CLI::App& app) {

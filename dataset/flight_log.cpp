@@ -31,8 +31,12 @@ std::int64_t nanoseconds(const ros::Time& time) { return static_cast<std::int64_
 }  // namespace
 
 struct FlightLog::Impl {
-  Impl(fs::path log, const Rig& rig_in, const LogConfig& config_in)
-      : path(std::move(log)), rig(rig_in), config(config_in), assembler(rig_in, config_in) {
+  Impl(fs::path log, const Rig& rig_in, const LogConfig& config_in, std::vector<SensorTopic> topics_in)
+      : path(std::move(log)),
+        rig(rig_in),
+        config(config_in),
+        topics(std::move(topics_in)),
+        assembler(rig_in, config_in) {
     require_file(path);
     check_bag_structure(path);
     with_bag_errors(path, [&] { open(); });
@@ -52,6 +56,7 @@ struct FlightLog::Impl {
   fs::path path;
   Rig rig;
   LogConfig config;
+  std::vector<SensorTopic> topics;
   MessageAssembler assembler;
   LogSummary summary;
 
@@ -74,7 +79,7 @@ void FlightLog::Impl::open() {
   for (const rosbag::ConnectionInfo* connection : connections)
     present[connection->topic] = connection->datatype;
   if (all.size() == 0) throw DataError(path.string() + ": holds no messages; record it again");
-  for (const SensorTopic& wanted : sensor_topics(rig, config)) choose(wanted, connections);
+  for (const SensorTopic& wanted : topics) choose(wanted, connections);
   count_messages();
   view = std::make_unique<rosbag::View>(bag, [this](const rosbag::ConnectionInfo* connection) {
     return readings.count(connection->topic) != 0;
@@ -177,7 +182,10 @@ void FlightLog::Impl::finish() {
 }
 
 FlightLog::FlightLog(const fs::path& path, const Rig& rig, const LogConfig& config)
-    : impl_(std::make_unique<Impl>(path, rig, config)) {}
+    : FlightLog(path, rig, config, sensor_topics(rig, config)) {}
+FlightLog::FlightLog(const fs::path& path, const Rig& rig, const LogConfig& config,
+                     const std::vector<SensorTopic>& topics)
+    : impl_(std::make_unique<Impl>(path, rig, config, topics)) {}
 FlightLog::~FlightLog() = default;
 FlightLog::FlightLog(FlightLog&&) noexcept = default;
 FlightLog& FlightLog::operator=(FlightLog&&) noexcept = default;

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "dataset/log_config.hpp"
 #include "dataset/messages/message_types.hpp"
@@ -30,6 +31,9 @@ class FlightLog {
   /// attitude, position) is not in it or has a type without decoder; the message names file and topic.
   /// @throws ConfigError if the rig names no topic for a camera or LiDAR.
   FlightLog(const std::filesystem::path& path, const Rig& rig, const LogConfig& config);
+  /// Reads `topics` alone (such as those of a rig that stands still and has no poses).
+  FlightLog(const std::filesystem::path& path, const Rig& rig, const LogConfig& config,
+            const std::vector<SensorTopic>& topics);
   ~FlightLog();
   FlightLog(FlightLog&&) noexcept;
   FlightLog& operator=(FlightLog&&) noexcept;

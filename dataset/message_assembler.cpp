@@ -27,7 +27,7 @@ std::optional<LogMessage> MessageAssembler::take() {
 
 void MessageAssembler::require_size(const CameraImage& image) const {
   const cv::Size wanted = rig_.cam0.camera.intrinsics.size();
-  if (image.image.size() == wanted) return;
+  if (wanted.empty() || image.image.size() == wanted) return;  // a rig whose cameras are not calibrated yet
   throw DecodeError("image of " + std::to_string(image.image.cols) + "x" + std::to_string(image.image.rows) +
                     " pixels, but the rig's camera has " + std::to_string(wanted.width) + "x" +
                     std::to_string(wanted.height));

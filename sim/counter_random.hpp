@@ -26,6 +26,10 @@ enum class RandomStream : std::uint64_t {
   kWind,
   kLandingFault,
   kLandingStart,
+  kLidarFootprint,
+  kLidarReflectivity,
+  kLidarAngles,
+  kBoardScene,
 };
 
 /// Random numbers as a pure function of (seed, stream, counter): the same on every run and for every number

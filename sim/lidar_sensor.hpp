@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -36,6 +37,12 @@ class LidarSensor {
   LidarScan scan(std::int64_t packet) const;
 
  private:
+  /// Where a beam really goes, which is reported to go along `reported` (unit).
+  Eigen::Vector3d beam(const Eigen::Vector3d& reported) const;
+  /// What the beam of each shot meets: its centre ray, or the rays of its footprint merged to one echo.
+  std::vector<Hit> echoes(std::int64_t first, const std::vector<Eigen::Isometry3d>& T_world_lidar,
+                          const std::vector<Eigen::Vector3d>& directions_lidar) const;
+  std::uint8_t level(const Hit& hit, std::uint64_t shot) const;
   bool detected(const Hit& hit, const Eigen::Vector3d& direction_world, std::uint64_t shot) const;
 
   const Renderer& renderer_;
@@ -44,6 +51,9 @@ class LidarSensor {
   LidarConfig config_;
   CounterRandom range_random_;
   CounterRandom detection_random_;
+  CounterRandom footprint_random_;
+  CounterRandom reflectivity_random_;
+  std::array<Eigen::Vector2d, 5> angle_error_rad_;  // coefficients over the field of view
   std::int64_t shots_per_packet_;
   std::int64_t first_shot_;  // where in its pattern the rosette is when the flight starts
 };

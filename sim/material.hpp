@@ -29,6 +29,8 @@ enum class Material : std::uint8_t {
   kGlass,
   kMetal,
   kWater,
+  kBoardWhite,
+  kBoardBlack,
   kCount
 };
 

@@ -33,6 +33,14 @@ void bind(Binder& b, LidarConfig& c) {
           positive());
   b.field("dark_reflectivity", c.dark_reflectivity, "below it returns get lost at random", between(0, 1));
   b.field("dark_loss", c.dark_loss, "share of the returns lost on black", between(0, 1));
+  b.field("range_offset_m", c.range_offset_m, "systematic error of every range", between(-10, 10));
+  b.field("reflectivity_noise", c.reflectivity_noise, "1 sigma in levels (150 = white)", between(0, 100));
+  b.field("divergence_up_deg", c.divergence_up_deg, "full width of the beam along the sensor's z",
+          between(0, 5));
+  b.field("divergence_across_deg", c.divergence_across_deg, "full width of the beam across", between(0, 5));
+  b.field("angle_error_deg", c.angle_error_deg, "largest systematic error of the reported directions",
+          between(0, 5));
+  b.field("sensor_seed", c.sensor_seed, "which sensor it is, for the pattern of that error", at_least(0));
 }
 
 void bind(Binder& b, AttitudeConfig& c) {
@@ -85,7 +93,8 @@ SensorsConfig effective(const SensorsConfig& config) {
   SensorsConfig c = config;
   if (config.noise == Noise::kOn) return c;
   c.camera.read_noise = c.camera.shot_noise = c.camera.brightness_drift = 0;
-  c.lidar.range_noise_m = c.lidar.dark_loss = 0;
+  c.lidar.range_noise_m = c.lidar.dark_loss = c.lidar.range_offset_m = c.lidar.reflectivity_noise = 0;
+  c.lidar.angle_error_deg = 0;
   c.attitude.noise_deg = 0;
   c.imu.accelerometer_noise_mps2 = c.imu.accelerometer_bias_mps2 = 0;
   c.imu.gyroscope_noise_radps = c.imu.gyroscope_bias_radps = 0;

@@ -33,6 +33,16 @@ struct LidarConfig {
   double range_at_80_percent_m = 260;
   double dark_reflectivity = 0.1;  ///< below it returns get lost at random ...
   double dark_loss = 0.3;          ///< ... up to this share on black
+  double range_offset_m = 0;       ///< systematic error of every range of this recording
+  double reflectivity_noise = 0;   ///< 1 sigma, in the sensor's levels (150 = white)
+  /// Full widths of the beam; a wide beam blurs reflectivity edges and mixes ranges at depth edges. The Mid-40's are
+  /// 0.28 (up) and 0.03 (across).
+  double divergence_up_deg = 0;
+  double divergence_across_deg = 0;
+  /// Largest error of the reported beam directions, which changes smoothly over the field of view and belongs to the
+  /// one sensor that `sensor_seed` stands for.
+  double angle_error_deg = 0;
+  std::int64_t sensor_seed = 1;
 };
 void bind(Binder& b, LidarConfig& c);
 
