@@ -1,0 +1,64 @@
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/safe_mask_score.hpp"
+#include "bench/scene.hpp"
+#include "geometry/reprojection.hpp"
+#include "infer/landing/site_selection.hpp"
+#include "sim/world.hpp"
+
+namespace alight::bench {
+namespace {
+
+struct Scores {
+  MaskScore planes;
+  MaskScore derivatives;
+};
+
+/// Perfect depth over one world of every look, from 5 to 40 m, rolled and pitched up to 15 degrees.
+Scores measure() {
+  const PinholeIntrinsics k = paper_rig().intrinsics;
+  SiteSelectionConfig config;
+  const SiteSelector planes(config, k);
+  config.method = LandingMethod::kDerivatives;
+  const SiteSelector derivatives(config, k);
+  Scores scores;
+  for (const auto look :
+       {sim::Look::kVillage, sim::Look::kForest, sim::Look::kFarmland, sim::Look::kRocky, sim::Look::kUrban}) {
+    sim::WorldConfig place;
+    place.look = look;
+    place.seed = 9101;
+    place.size_m = 120;
+    const sim::World world(place);
+    const sim::Renderer renderer(world);
+    const sim::SurfaceTruth truth(renderer, {});
+    for (const double height_m : {5.0, 20.0, 40.0}) {
+      for (const Station& s : stations(world, truth, height_m, 2, 15, 9101)) {
+        const PerfectDepth perfect = perfect_depth(renderer, k, s.T_world_camera);
+        const SiteSelection selection = planes.select(perfect.depth_m, s.T_world_camera);
+        Eigen::Isometry3d T_world_level = s.T_world_camera;
+        T_world_level.linear() = s.T_world_camera.linear() * selection.R_level_camera.transpose();
+        const cv::Mat material = level_material(perfect.material, k, selection.R_level_camera);
+        const TruthView view =
+            truth_view(truth, {}, selection.level_depth_m, material, k, T_world_level, config.vehicle_radius_m);
+        scores.planes.add(score_mask(selection.safe, view, material));
+        scores.derivatives.add(
+            score_mask(derivatives.select(perfect.depth_m, s.T_world_camera).safe, view, material));
+      }
+    }
+  }
+  return scores;
+}
+
+TEST(SafeMask, AgreesWithTheTruthWhereTheImageShowsIt) {
+  const Scores scores = measure();
+  RecordProperty("precision", std::to_string(scores.planes.precision()));
+  EXPECT_GT(scores.planes.called_safe_m2, 2000);
+  EXPECT_GE(scores.planes.precision_of_seen(), 0.999) << scores.planes.precision();
+  EXPECT_GE(scores.planes.recall(), 0.9);
+  EXPECT_GT(scores.planes.precision(), scores.derivatives.precision());
+}
+
+}  // namespace
+}  // namespace alight::bench
