@@ -188,7 +188,7 @@ GuardSet MissionMachine::guards() const {
 std::string MissionMachine::reason_for(const Transition& row) const {
   std::string reason = row.reason;
   const auto uses = [&](Guard guard) { return (row.when & bit(guard)) != 0; };
-  if (uses(G::kHealthFailed)) reason += ": " + health_text_;
+  if (health_failed_ && (uses(G::kHealthFailed) || state_ == S::kHold)) reason += ": " + health_text_;
   if (uses(G::kTargetUnsafe) || uses(G::kTargetLost) || (uses(G::kTimeout) && state_ == S::kConfirm))
     reason += " (" + last_check_ + ")";
   if (uses(G::kEnergyLow) || uses(G::kEnergyCritical)) {
