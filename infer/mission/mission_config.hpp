@@ -23,7 +23,7 @@ struct MissionConfig {
       1.5;               ///< a chosen site has to keep this much safe ground around it until it is confirmed
   double nudge_m = 2.0;  ///< and may move by so much to keep it
   double site_timeout_s = 1.5;     ///< not seen safe for so long: lost
-  int unsafe_frames = 3;           ///< consecutive frames that make a site unsafe
+  int unsafe_frames = 5;           ///< consecutive frames that make a site unsafe
   double rejected_radius_m = 3.0;  ///< around a site that was given up none is chosen again
   // confirming and landing
   double confirm_height_m = 9.0;

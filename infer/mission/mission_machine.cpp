@@ -61,7 +61,7 @@ std::optional<SiteCheckRule> MissionMachine::check_rule() const {
   SiteCheckRule rule;
   rule.radius_m = target_->least_bad ? config_.least_bad_radius_m : config_.keep_radius_m;
   if (state_ == S::kFinalDescent) {
-    rule.min_known_share = 0.15;  // of a circle that outgrows the LiDAR's
+    rule.min_known_share = 0.05;  // of a circle that outgrows the LiDAR's
   } else {
     const double moved_m = horizontal_m(target_->place.p_world, target_->chosen_p_world);
     rule.nudge_m = std::max(0.0, config_.nudge_m - moved_m);
@@ -188,7 +188,7 @@ GuardSet MissionMachine::guards() const {
 std::string MissionMachine::reason_for(const Transition& row) const {
   std::string reason = row.reason;
   const auto uses = [&](Guard guard) { return (row.when & bit(guard)) != 0; };
-  if (uses(G::kHealthFailed)) reason += ": " + health_text_;
+  if (health_failed_ && (uses(G::kHealthFailed) || state_ == S::kHold)) reason += ": " + health_text_;
   if (uses(G::kTargetUnsafe) || uses(G::kTargetLost) || (uses(G::kTimeout) && state_ == S::kConfirm))
     reason += " (" + last_check_ + ")";
   if (uses(G::kEnergyLow) || uses(G::kEnergyCritical)) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 namespace alight {
 namespace {
 
@@ -12,8 +14,22 @@ struct Disc {
   int unsafe = 0;
 };
 
+/// Ground whose verdict does not come from the unknown beside it, which makes a guard's width of it unsafe.
+cv::Mat surely_known(const SiteSelector& selector, const SiteSelection& selection, double metres_per_pixel) {
+  const SiteSelectionConfig& config = selector.config();
+  const double border_m = config.method == LandingMethod::kPlaneFit
+                              ? config.ground.guard_m + config.plane_fit.cell_m
+                              : metres_per_pixel * config.erode_px;
+  const int border_px = static_cast<int>(std::ceil(border_m / metres_per_pixel));
+  cv::Mat known;
+  cv::erode(selection.terrain.known, known, cv::Mat::ones(2 * border_px + 1, 2 * border_px + 1, CV_8UC1),
+            {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  return known;
+}
+
 /// Pixels of the level image within `radius_px`; those beyond the image are wanted, too.
-Disc count_disc(const SiteSelection& selection, const Eigen::Vector2d& centre_px, double radius_px) {
+Disc count_disc(const SiteSelection& selection, const cv::Mat& known, const Eigen::Vector2d& centre_px,
+                double radius_px) {
   Disc disc;
   const int reach = static_cast<int>(std::ceil(radius_px));
   const int centre_u = static_cast<int>(std::lround(centre_px.x()));
@@ -23,7 +39,7 @@ Disc count_disc(const SiteSelection& selection, const Eigen::Vector2d& centre_px
       if (std::hypot(u - centre_px.x(), v - centre_px.y()) > radius_px) continue;
       ++disc.wanted;
       if (u < 0 || v < 0 || u >= selection.safe.cols || v >= selection.safe.rows) continue;
-      if (selection.terrain.known.at<std::uint8_t>(v, u) == 0) continue;
+      if (known.at<std::uint8_t>(v, u) == 0) continue;
       ++disc.known;
       disc.unsafe += selection.safe.at<std::uint8_t>(v, u) == 0 ? 1 : 0;
     }
@@ -69,7 +85,8 @@ SiteCheck check_site(const SiteSelector& selector, const SiteSelection& selectio
   const Eigen::Vector2d centre_px = camera.project(p_level);
   if (!centre_px.allFinite()) return check;
   const double metres_per_pixel = p_level.z() / camera.fx_px;
-  const Disc disc = count_disc(selection, centre_px, rule.radius_m / metres_per_pixel);
+  const Disc disc = count_disc(selection, surely_known(selector, selection, metres_per_pixel), centre_px,
+                               rule.radius_m / metres_per_pixel);
   if (disc.wanted == 0) return check;
   check.known_share = static_cast<double>(disc.known) / disc.wanted;
   check.unsafe_share = disc.known > 0 ? static_cast<double>(disc.unsafe) / disc.known : 0;

@@ -20,7 +20,7 @@ struct SiteCheckRule {
   double radius_m = 1.5;           ///< safe ground wanted around it
   double nudge_m = 0;              ///< how far a better centre may be
   double min_known_share = 1.0;    ///< of the circle; 1: the whole circle has to be free ground
-  double max_unsafe_share = 0.03;  ///< of its known part; more is unsafe
+  double max_unsafe_share = 0.10;  ///< of its known part; more is unsafe
   double max_height_step_m = 1.0;  ///< ground that has moved more is not the same ground
 };
 

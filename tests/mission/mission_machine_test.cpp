@@ -227,7 +227,9 @@ TEST_F(Flight, FailedSensorsHoldThenGoOnOrGiveUp) {
   machine_.set_health({});
   EXPECT_EQ(run_for(0.1).state, S::kSelect);
   machine_.set_health(failed);
-  EXPECT_EQ(run_for(config_.hold_timeout_s + 0.5).state, S::kGivenUp);
+  const MissionCommand given_up = run_for(config_.hold_timeout_s + 0.5);
+  EXPECT_EQ(given_up.state, S::kGivenUp);
+  EXPECT_THAT(given_up.reason, HasSubstr("position lost"));
   machine_.set_health({});
   EXPECT_EQ(run_for(5).state, S::kGivenUp) << "a person has to take over";
 }

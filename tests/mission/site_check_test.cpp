@@ -57,7 +57,7 @@ TEST_F(SiteCheckTest, ASiteMovesAwayFromAnObstacleBesideIt) {
   cv::Mat depth = scenes::level_ground(camera_, kHeight_m);
   // image right is world east
   scenes::change(
-      depth, camera_, kHeight_m, [](double x, double) { return x > 1.2; }, static_cast<float>(kHeight_m - 2));
+      depth, camera_, kHeight_m, [](double x, double) { return x > 1.6; }, static_cast<float>(kHeight_m - 2));
   SiteCheckRule rule;
   EXPECT_EQ(check(depth, {0, 0, 0}, rule).verdict, SiteVerdict::kUnsafe);
   rule.nudge_m = 2;
@@ -79,11 +79,11 @@ TEST_F(SiteCheckTest, WhatIsNotInViewIsUnseen) {
 TEST_F(SiteCheckTest, PartOfTheCircleIsEnoughOnlyWhereTheRuleSaysSo) {
   cv::Mat depth = scenes::level_ground(camera_, kHeight_m);
   scenes::change(
-      depth, camera_, kHeight_m, [](double x, double y) { return std::hypot(x, y) > 1.2; }, 0.0F);
+      depth, camera_, kHeight_m, [](double x, double y) { return std::hypot(x, y) > 1.6; }, 0.0F);
   SiteCheckRule rule;
   rule.radius_m = 1.5;
   EXPECT_NE(check(depth, {0, 0, 0}, rule).verdict, SiteVerdict::kSafe);
-  rule.min_known_share = 0.15;
+  rule.min_known_share = 0.05;
   EXPECT_EQ(check(depth, {0, 0, 0}, rule).verdict, SiteVerdict::kSafe);
   scenes::change(
       depth, camera_, kHeight_m, [](double x, double y) { return std::hypot(x, y) < 0.3; },
