@@ -98,6 +98,7 @@ TEST_F(LidarCalibrationTest, DataSetsOfTheCalibratedAndTheTrueRigAgree) {
   config.recorder.truth = false;
   config.sensors.camera.rate_hz = 4;
   config.flights[0].world.size_m = 90;
+  config.flights[0].plan.kind = sim::PlanKind::kHover;
   config.flights[0].plan.start_height_m = 25;
   config.flights[0].plan.duration_s = 3;
   sim::FlightRecorder(config, folder()).record(config.flights[0]);
