@@ -164,8 +164,8 @@ JointResult Solver::refine(const Eigen::Isometry3d& start, const Assignment& ass
     boards.push_back({&views_[i], turns_[assignment.turn[i]]});
   }
   // A LiDAR's direction error changes smoothly, so that boards near each other share it: many boards average it no
-  // further than a handful of independent regions of the field of view do.
-  constexpr double kIndependentRegions = 6;
+  // further than the three coefficients of its linear part over the field of view do.
+  constexpr double kIndependentRegions = 3;
   const double shared = std::sqrt(std::max(1.0, static_cast<double>(boards.size()) / kIndependentRegions));
   return refine_jointly(
       board_, boards, intrinsics_,
