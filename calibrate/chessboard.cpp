@@ -154,7 +154,8 @@ std::string why_not_found(const cv::Mat& image, const Chessboard& board) {
   --squares.columns;
   --squares.rows;
   if (squares.columns >= 3 && squares.rows >= 3 && detect(image, squares)) {
-    return wanted + ", but one of " + squares.name() + ": --board counts inner corners, not squares";
+    return wanted + ", but a grid of " + squares.name() +
+           ": count again, --board takes the inner corners, one less than squares each way";
   }
   return wanted +
          "; the whole board with its white margin has to be in view, in even light, and --board counts the "
