@@ -38,9 +38,31 @@ void remove_mirroring(const Chessboard& board, Corners& corners) {
 
 std::optional<Corners> detect(const cv::Mat& image, const Chessboard& board) {
   Corners corners;
-  const int flags = cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY;
+  const int flags = cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY;
   if (cv::findChessboardCornersSB(image, board.size(), corners, flags)) return corners;
-  if (cv::findChessboardCorners(image, board.size(), corners, cv::CALIB_CB_ADAPTIVE_THRESH)) return corners;
+  return std::nullopt;
+}
+
+/// Small boards are found once they are enlarged.
+std::optional<Corners> detect_enlarged(const cv::Mat& image, const Chessboard& board) {
+  constexpr double kScale = 2;
+  cv::Mat large;
+  cv::resize(image, large, {}, kScale, kScale, cv::INTER_CUBIC);
+  std::optional<Corners> corners = detect(large, board);
+  if (!corners) return std::nullopt;
+  for (cv::Point2f& corner : *corners) {
+    corner.x = (corner.x + 0.5F) / static_cast<float>(kScale) - 0.5F;
+    corner.y = (corner.y + 0.5F) / static_cast<float>(kScale) - 0.5F;
+  }
+  return corners;
+}
+
+/// OpenCV's older detector finds some boards that the newer one does not; without the fast check it may search for
+/// minutes where there is none.
+std::optional<Corners> detect_classic(const cv::Mat& image, const Chessboard& board) {
+  Corners corners;
+  const int flags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_FAST_CHECK;
+  if (cv::findChessboardCorners(image, board.size(), corners, flags)) return corners;
   return std::nullopt;
 }
 
@@ -72,17 +94,9 @@ Chessboard parse_chessboard(const std::string& size, double square_m) {
 
 std::optional<Corners> find_chessboard(const cv::Mat& image, const Chessboard& board) {
   std::optional<Corners> corners = detect(image, board);
-  if (!corners) {  // small boards are found once they are enlarged
-    constexpr double kScale = 2;
-    cv::Mat large;
-    cv::resize(image, large, {}, kScale, kScale, cv::INTER_CUBIC);
-    corners = detect(large, board);
-    if (!corners) return std::nullopt;
-    for (cv::Point2f& corner : *corners) {
-      corner.x = (corner.x + 0.5F) / static_cast<float>(kScale) - 0.5F;
-      corner.y = (corner.y + 0.5F) / static_cast<float>(kScale) - 0.5F;
-    }
-  }
+  if (!corners) corners = detect_classic(image, board);
+  if (!corners) corners = detect_enlarged(image, board);
+  if (!corners) return std::nullopt;
   // A stain or reflection next to a corner may draw it away; such a corner keeps the detector's place.
   const Corners detected = *corners;
   refine_corners(image, board, *corners);
@@ -140,7 +154,8 @@ std::string why_not_found(const cv::Mat& image, const Chessboard& board) {
   --squares.columns;
   --squares.rows;
   if (squares.columns >= 3 && squares.rows >= 3 && detect(image, squares)) {
-    return wanted + ", but one of " + squares.name() + ": --board counts inner corners, not squares";
+    return wanted + ", but a grid of " + squares.name() +
+           ": count again, --board takes the inner corners, one less than squares each way";
   }
   return wanted +
          "; the whole board with its white margin has to be in view, in even light, and --board counts the "

@@ -30,16 +30,8 @@ struct LidarOptions {
   std::string report;
 };
 
-struct CheckOptions {
-  ConfigOptions config;
-  std::string log;
-  std::string rig;
-  std::string picture;
-};
-
-/// `alight-calibrate stereo|lidar|check`: results go to stdout. @returns the exit code. @throws ConfigError, DataError
+/// `alight-calibrate stereo|lidar`: results go to stdout. @returns the exit code. @throws ConfigError, DataError
 int run_stereo(const StereoOptions& options);
 int run_lidar(const LidarOptions& options);
-int run_check(const CheckOptions& options);
 
 }  // namespace alight

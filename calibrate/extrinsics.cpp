@@ -163,8 +163,13 @@ JointResult Solver::refine(const Eigen::Isometry3d& start, const Assignment& ass
     if (used[i] == 0) continue;
     boards.push_back({&views_[i], turns_[assignment.turn[i]]});
   }
-  return refine_jointly(board_, boards, intrinsics_,
-                        {camera_noise_px(), config_.range_bias_m, to_radians(config_.angle_bias_deg)}, start);
+  // A LiDAR's direction error changes smoothly, so that boards near each other share it: many boards average it no
+  // further than the three coefficients of its linear part over the field of view do.
+  constexpr double kIndependentRegions = 3;
+  const double shared = std::sqrt(std::max(1.0, static_cast<double>(boards.size()) / kIndependentRegions));
+  return refine_jointly(
+      board_, boards, intrinsics_,
+      {camera_noise_px(), config_.range_bias_m, shared * to_radians(config_.angle_bias_deg)}, start);
 }
 
 /// The minima that the best candidates lead to, best first.

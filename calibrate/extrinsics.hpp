@@ -21,9 +21,10 @@ struct ExtrinsicsConfig {
   double min_tilt_spread_deg = 15;  ///< between the two most different boards
   double max_rotation_sigma_deg = 0.1;
   double max_translation_sigma_m = 0.01;
-  double min_distinctness = 2;   ///< RMSE of the second best mounting over that of the best
-  double range_bias_m = 0.01;    ///< 1 sigma of a LiDAR's systematic range error, and again of a board's own
-  double angle_bias_deg = 0.033;  ///< 1 sigma of its systematic direction error at a board: Livox promises 0.1
+  double min_distinctness = 2;  ///< RMSE of the second best mounting over that of the best
+  double range_bias_m = 0.01;   ///< 1 sigma of a LiDAR's systematic range error, and again of a board's own
+  double angle_bias_deg =
+      0.033;  ///< 1 sigma of its systematic direction error at a board: Livox promises 0.1
   double min_camera_noise_px = 0.03;  ///< 1 sigma: no corner is better known than this
 };
 void bind(Binder& b, ExtrinsicsConfig& c);

@@ -1,6 +1,7 @@
 #include "calibrate/lidar_calibration.hpp"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <future>
 #include <utility>
@@ -12,6 +13,8 @@
 namespace alight {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr std::array<double, 3> kFocals_px = {700, 1000, 500};  // of the LiDAR's image, tried in turn
 
 /// The largest way of a corner between the first and the last third of the images.
 double camera_motion_px(const StaticScene& scene, const Chessboard& board, const Corners& corners) {
@@ -89,11 +92,11 @@ std::string look_with_camera(SceneResult& result, const Rig& rig, const Chessboa
 std::string look_with_lidar(SceneResult& result, const Chessboard& board,
                             const LidarCalibrationConfig& config, BoardView& view) {
   // Coarse pixels hold many points and fill holes, fine ones resolve far boards: the first that shows the board wins.
-  for (const double focal_px : {700.0, 1000.0, 500.0, 1400.0}) {
+  for (const double focal_px : kFocals_px) {
     LidarImage image = draw_lidar_image(result.scene.points, focal_px);
     auto corners = find_chessboard(image.reflectivity, board);
-    if (result.lidar_image.reflectivity.empty() || corners) result.lidar_image = std::move(image);
     if (!corners) continue;
+    result.lidar_image = std::move(image);
     result.lidar_corners = std::move(corners);
     break;
   }
@@ -163,9 +166,10 @@ SceneResult observe_scene(StaticScene scene, const Rig& rig, const Chessboard& b
   result.name = result.scene.name;
   BoardView view;
   view.name = result.name;
+  result.lidar_image =
+      draw_lidar_image(result.scene.points, kFocals_px[0]);  // shown where the camera sees no board
   result.refused = look_with_camera(result, rig, board, config, view);
-  const std::string lidar = look_with_lidar(result, board, config, view);
-  if (result.refused.empty()) result.refused = lidar;
+  if (result.refused.empty()) result.refused = look_with_lidar(result, board, config, view);
   if (result.refused.empty()) result.view = std::move(view);
   return result;
 }

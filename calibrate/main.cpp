@@ -19,8 +19,7 @@ int main(int argc, char** argv) {
       "--output rig.yaml\n"
       "  alight-calibrate lidar --log b1.bag --log b2.bag --log b3.bag --rig rig.yaml --board 6x4 --square-m "
       "0.12 "
-      "--output rig2.yaml\n"
-      "  alight-calibrate check --log flight.bag --rig rig2.yaml");
+      "--output rig2.yaml");
 
   alight::StereoOptions stereo;
   CLI::App* stereo_app =
@@ -60,18 +59,8 @@ int main(int argc, char** argv) {
       "0.12 "
       "--output rig2.yaml --report report/");
 
-  alight::CheckOptions check;
-  CLI::App* check_app = app.add_subcommand("check", "Whether a log still fits its rig file, before a flight");
-  alight::add_config_options(*check_app, check.config);
-  check_app->add_option("-l,--log", check.log, "Any ROS 1 bag of the rig, still or in flight");
-  check_app->add_option("-r,--rig", check.rig, "Its rig file");
-  check_app->add_option("-p,--picture", check.picture, "PNG to make");
-  check_app->footer(
-      "Examples:\n  alight-calibrate check --log flight.bag --rig rig2.yaml --picture check.png");
-
   return alight::run_tool(app, argc, argv, [&] {
     if (stereo_app->parsed()) return alight::run_stereo(stereo);
-    if (lidar_app->parsed()) return alight::run_lidar(lidar);
-    return alight::run_check(check);
+    return alight::run_lidar(lidar);
   });
 }

@@ -20,6 +20,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev python3-rosbag python3-venv
 )
 full_packages=(python3-torch python3-yaml python3-numpy python3-opencv chromium
+               opencv-doc                     # real stereo images of a chessboard
                python3-roslaunch python3-rosmaster rosout)  # a ROS 1 master; python3-rosbag plays
 
 case "${1:-}" in
