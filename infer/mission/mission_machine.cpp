@@ -314,8 +314,11 @@ Eigen::Vector3d MissionMachine::velocity() const {
     case S::kClimbAway:
     case S::kGivenUp: {
       const double up_m = home_.z() - p_world_->z();
+      // A position that is lost stays low for ever: then the way up is counted in time.
+      const double way_s = (home_.z() - hold_.z()) / config_.climb_speed_mps;
+      const bool counted_up = state_ == S::kGivenUp || since_s(entered_ns_) > way_s + 1.0;
       const double up_mps =
-          health_failed_ && state_ == S::kGivenUp ? 0.0 : std::clamp(up_m, 0.0, config_.climb_speed_mps);
+          health_failed_ && counted_up ? 0.0 : std::clamp(up_m, 0.0, config_.climb_speed_mps);
       return {0, 0, up_mps};
     }
   }

@@ -245,6 +245,22 @@ TEST_F(Flight, FailedSensorsInADescentSendItUp) {
   run_until(S::kHold);
 }
 
+TEST_F(Flight, WithoutPositionItClimbsNoFartherThanTheWayUp) {
+  site_ = Eigen::Vector3d(3, 0, ground_z_m_);
+  start();
+  run_until(S::kConfirm);
+  HealthReport failed;
+  failed.state = HealthState::kFailed;
+  machine_.set_health(failed);
+  double climbed_m = 0;
+  for (int i = 0; i < 400; ++i) {
+    now_ns_ += to_nanoseconds(0.1);
+    climbed_m += 0.1 * machine_.step(now_ns_).velocity_mps.z();  // set_position is not called any more
+  }
+  EXPECT_GT(climbed_m, -p_world_.z() - 1);
+  EXPECT_LT(climbed_m, -p_world_.z() + 4);
+}
+
 TEST_F(Flight, LowEnergyTakesTheLeastBadSiteAndSaysSo) {
   start();
   largest_ = Place{{12, 4, ground_z_m_}, 1.4};
