@@ -22,6 +22,12 @@ Eigen::Isometry3d camera_at(double x_m, double y_m, double z_m, double roll_deg 
   return T;
 }
 
+SiteSelectionConfig planes() {
+  SiteSelectionConfig config;
+  config.method = LandingMethod::kPlaneFit;
+  return config;
+}
+
 /// Depth of the plane z = z0 + gx x + gy y of the world.
 cv::Mat plane_seen(const PinholeIntrinsics& k, const Eigen::Isometry3d& T, double z0_m, double gx,
                    double gy) {
@@ -127,7 +133,7 @@ TEST_P(PlaneFitSlope, IsDecidedTheSameFromEveryHeight) {
   for (const double height_m : {8.0, 20.0, 40.0}) {
     const Eigen::Isometry3d T = camera_at(0.1, 0.2, height_m, 10, -12, 0.3);
     const SiteSelection selection =
-        SiteSelector({}, k).select(plane_seen(k, T, 0, gradient * 0.6, gradient * 0.8), T);
+        SiteSelector(planes(), k).select(plane_seen(k, T, 0, gradient * 0.6, gradient * 0.8), T);
     const int safe = cv::countNonZero(selection.safe);
     if (GetParam() < 10) EXPECT_GT(safe, 0.3 * cv::countNonZero(selection.terrain.known)) << height_m;
     if (GetParam() > 10) EXPECT_EQ(safe, 0) << height_m;
@@ -146,14 +152,14 @@ TEST(PlaneFitSelection, CirclesLieInTheWorldWhereTheyAre) {
       if (std::hypot(p.x() - 41, p.y() + 24) > 4) depth.at<float>(v, u) = 0;
     }
   }
-  const SiteSelection selection = SiteSelector({}, k).select(depth, T);
+  const SiteSelection selection = SiteSelector(planes(), k).select(depth, T);
   ASSERT_TRUE(selection.found());
   EXPECT_NEAR(selection.largest->p_world.x(), 41, 0.25);
   EXPECT_NEAR(selection.largest->p_world.y(), -24, 0.25);
   EXPECT_NEAR(selection.largest->p_world.z(), 0, 1e-3);
   EXPECT_LE(selection.largest->radius_m, 4 - 0.6 + 1e-6) << "less the disc";
   EXPECT_GT(selection.largest->radius_m, 4 - 0.6 - 0.45);
-  const auto there = SiteSelector({}, k).circle_at(selection, selection.largest->centre_px);
+  const auto there = SiteSelector(planes(), k).circle_at(selection, selection.largest->centre_px);
   ASSERT_TRUE(there);
   EXPECT_NEAR(there->radius_m, selection.largest->radius_m, 0.1);
 }
@@ -162,7 +168,7 @@ TEST(PlaneFitSelection, WiresMakeTheGroundBelowThemUnsafe) {
   const PinholeIntrinsics k = camera_of(353, 353);
   cv::Mat depth = scenes::level_ground(k, 20);
   depth.col(276).setTo(10);  // 2.27 m right of the camera and 10 m up; seen where the ground is 4.55 m right
-  const SiteSelection selection = SiteSelector({}, k).select(depth, camera_at(0, 0, 20));
+  const SiteSelection selection = SiteSelector(planes(), k).select(depth, camera_at(0, 0, 20));
   ASSERT_TRUE(selection.largest);
   EXPECT_GT(std::abs(selection.largest->p_world.x() - 100.0 / 440 * 10), selection.largest->radius_m);
   EXPECT_EQ(selection.safe.at<std::uint8_t>(176, 226), 0);
@@ -173,7 +179,7 @@ TEST(PlaneFitSelection, UnknownAndUnconfidentGroundIsAHazard) {
   const cv::Mat depth = scenes::level_ground(k, 20);
   cv::Mat confidence(depth.size(), CV_32FC1, cv::Scalar(0.9));
   confidence(cv::Rect(0, 0, 176, 352)).setTo(0.2);
-  const SiteSelection selection = SiteSelector({}, k).select(depth, camera_at(0, 0, 20), confidence);
+  const SiteSelection selection = SiteSelector(planes(), k).select(depth, camera_at(0, 0, 20), confidence);
   EXPECT_EQ(cv::countNonZero(selection.safe(cv::Rect(0, 0, 176, 352))), 0);
   EXPECT_GT(cv::countNonZero(selection.safe), 10000);
   ASSERT_TRUE(selection.found());
@@ -186,7 +192,7 @@ TEST(PlaneFitSelection, RoofsAreNotGround) {
   cv::Mat depth = scenes::level_ground(k, 30);
   scenes::change(
       depth, k, 26, [](double x, double y) { return std::abs(x) < 4.5 && std::abs(y) < 4.5; }, 26);
-  SiteSelectionConfig config;
+  SiteSelectionConfig config = planes();
   const SiteSelection warned = SiteSelector(config, k).select(depth, camera_at(0, 0, 30));
   EXPECT_EQ(warned.safe.at<std::uint8_t>(176, 176), 0);
   EXPECT_EQ(warned.safe.at<std::uint8_t>(176, 300), 255);
@@ -199,7 +205,7 @@ TEST(PlaneFitSelection, SitesAreSeparateAndTheBestScoreComesFirst) {
   cv::Mat depth = scenes::level_ground(k, 40);
   depth(cv::Rect(150, 0, 12, 352)).setTo(36);  // a wall
   depth(cv::Rect(0, 150, 352, 12)).setTo(36);
-  const SiteSelection selection = SiteSelector({}, k).select(depth, camera_at(0, 0, 40));
+  const SiteSelection selection = SiteSelector(planes(), k).select(depth, camera_at(0, 0, 40));
   ASSERT_GE(selection.sites.size(), 3U);
   for (std::size_t i = 0; i < selection.sites.size(); ++i) {
     const LandingSite& a = selection.sites[i];

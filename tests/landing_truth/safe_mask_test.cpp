@@ -20,6 +20,7 @@ struct Scores {
 Scores measure() {
   const PinholeIntrinsics k = paper_rig().intrinsics;
   SiteSelectionConfig config;
+  config.method = LandingMethod::kPlaneFit;
   const SiteSelector planes(config, k);
   config.method = LandingMethod::kDerivatives;
   const SiteSelector derivatives(config, k);
