@@ -25,8 +25,8 @@ Scores measure() {
   config.method = LandingMethod::kDerivatives;
   const SiteSelector derivatives(config, k);
   Scores scores;
-  for (const auto look :
-       {sim::Look::kVillage, sim::Look::kForest, sim::Look::kFarmland, sim::Look::kRocky, sim::Look::kUrban}) {
+  for (const auto look : {sim::Look::kVillage, sim::Look::kForest, sim::Look::kFarmland, sim::Look::kRocky,
+                          sim::Look::kUrban}) {
     sim::WorldConfig place;
     place.look = look;
     place.seed = 9101;
@@ -41,8 +41,8 @@ Scores measure() {
         Eigen::Isometry3d T_world_level = s.T_world_camera;
         T_world_level.linear() = s.T_world_camera.linear() * selection.R_level_camera.transpose();
         const cv::Mat material = level_material(perfect.material, k, selection.R_level_camera);
-        const TruthView view =
-            truth_view(truth, {}, selection.level_depth_m, material, k, T_world_level, config.vehicle_radius_m);
+        const TruthView view = truth_view(truth, {}, selection.level_depth_m, material, k, T_world_level,
+                                          config.vehicle_radius_m);
         scores.planes.add(score_mask(selection.safe, view, material));
         scores.derivatives.add(
             score_mask(derivatives.select(perfect.depth_m, s.T_world_camera).safe, view, material));
