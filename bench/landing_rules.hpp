@@ -21,7 +21,8 @@ cv::Mat px4_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m,
 /// HALSS, the landing site selection of HALO (Hayner et al., ICRA 2023, arXiv:2304.01583): points interpolated to an
 /// elevation raster, its surface normals compared with the vertical, the distance transform of what is flat gives
 /// circles, the largest first, each cut out before the next. Safe is the ground inside the circles of at least
-/// `min_radius_m`. Here: cells of 0.2 m, normals by central differences, 10 degrees. Left out: its learned fine stage.
+/// `min_radius_m`. Restated from its abstract and public summaries, not from the full text: cells of 0.2 m, normals by
+/// central differences and 10 degrees are our choice, and its learned fine stage is left out.
 /// @returns CV_8UC1 of the level camera, 255 = safe
 cv::Mat halss_safe_mask(const cv::Mat& depth_m, const cv::Mat& level_depth_m,
                         const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera,
