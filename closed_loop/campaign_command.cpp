@@ -129,7 +129,8 @@ Command add_campaign_command(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  alight-sim campaign --worlds 1000 --output out/campaign --jobs 2\n"
-      "  alight-sim campaign --config configs/landing/coarse.yaml --lidar-only --worlds 1000 --faults all "
+      "  alight-sim campaign --config configs/closed_loop/coarse.yaml --lidar-only --worlds 1000 --faults "
+      "all "
       "--output out/faults\n"
       "  alight-sim campaign --report --output out/campaign");
   return {command, [options] { return run(*options); }};
