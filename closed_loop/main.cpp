@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
       "1\n"
       "  alight-sim land --world 7 --config configs/landing/default.yaml --output out/landing\n"
       "  alight-sim campaign --worlds 1000 --faults all --output out/campaign --jobs 2");
+  app.fallthrough();  // -q, -v and --version also after the subcommand
   const alight::closed_loop::Command fly = alight::closed_loop::add_fly_command(app);
   const std::vector<alight::closed_loop::Command> commands = {
       alight::closed_loop::add_board_command(app), alight::closed_loop::add_score_command(app),
