@@ -49,6 +49,10 @@ foreach(library rosbag_storage roscpp_serialization rostime cpp_common class_loa
 endforeach()
 alight_imported(rosbag INCLUDES ${ROSBAG_INCLUDES} LIBRARIES ${ROSBAG_LIBRARIES})
 
+find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+find_library(XXHASH_LIBRARY xxhash REQUIRED)
+alight_imported(xxhash INCLUDES ${XXHASH_INCLUDE_DIR} LIBRARIES ${XXHASH_LIBRARY})
+
 # Debian's cpp-httplib is compiled with these three, and its classes have other layouts without them.
 find_path(HTTPLIB_INCLUDE_DIR httplib.h REQUIRED)
 find_library(HTTPLIB_LIBRARY cpp-httplib REQUIRED)

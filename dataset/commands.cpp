@@ -7,6 +7,7 @@
 
 #include "cli/progress_bar.hpp"
 #include "dataset/dataset_builder.hpp"
+#include "dataset/dataset_merge.hpp"
 #include "dataset/sample_picture.hpp"
 #include "geometry/frames.hpp"
 
@@ -38,22 +39,47 @@ void print_flights(const fs::path& dir, const DatasetInfo& info) {
   std::printf("points and pixels are means a sample\n");
 }
 
-/// One bar a log, made when the log's length is known.
-class LogBars {
+/// "2/5": of five shards the second.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  char rest = 0;
+  const bool fits = std::sscanf(text.c_str(), "%d/%d%c", &shard.index, &shard.count, &rest) == 2;
+  if (!fits || shard.index < 1 || shard.index > shard.count)
+    throw ConfigError("--shard " + text + ": write i/N with 1 <= i <= N, such as 2/5");
+  return shard;
+}
+
+std::vector<fs::path> logs_of(const BuildArguments& arguments) {
+  const std::vector<fs::path> all(arguments.logs.begin(), arguments.logs.end());
+  if (arguments.shard.empty()) return all;
+  const Shard shard = parse_shard(arguments.shard);
+  std::vector<fs::path> logs;
+  for (std::size_t i = static_cast<std::size_t>(shard.index - 1); i < all.size();
+       i += static_cast<std::size_t>(shard.count))
+    logs.push_back(all[i]);
+  if (logs.empty() && !all.empty())
+    throw ConfigError("--shard " + arguments.shard + ": there are only " + std::to_string(all.size()) +
+                      " logs");
+  return logs;
+}
+
+/// In megabytes of logs; made when their size is known.
+class BuildBar {
  public:
-  void update(const fs::path& log, std::int64_t read, std::int64_t total) {
-    if (log != log_) {
-      bar_ = std::make_unique<ProgressBar>(log.filename().string(), total, "messages");
-      log_ = log;
-      read_ = 0;
-    }
-    bar_->advance(read - read_);
-    read_ = read;
+  void update(std::int64_t done_bytes, std::int64_t total_bytes) {
+    if (!bar_) bar_ = std::make_unique<ProgressBar>("logs", total_bytes / kMegabyte, "MB");
+    bar_->advance(done_bytes / kMegabyte - done_mb_);
+    done_mb_ = done_bytes / kMegabyte;
   }
+  void finish() { bar_.reset(); }
 
  private:
-  fs::path log_;
-  std::int64_t read_ = 0;
+  static constexpr std::int64_t kMegabyte = 1'000'000;
+  std::int64_t done_mb_ = 0;
   std::unique_ptr<ProgressBar> bar_;
 };
 
@@ -69,17 +95,30 @@ const FlightEntry& find_flight(const DatasetInfo& info, const fs::path& dir, con
 
 }  // namespace
 
-int run_build(const BuildOptions& options) {
-  const auto config = load<DatasetConfig>(options.config);
-  if (print_if_asked(options.config, config)) return kExitOk;
-  if (options.output.empty()) throw ConfigError("--output is missing: name the folder to make");
-  const Rig rig = load_rig(find_rig_file(config.rig, options.config.file));
-  const std::vector<fs::path> logs(options.logs.begin(), options.logs.end());
-  LogBars bars;
-  const DatasetInfo info = build_dataset(
-      config, rig, logs, options.output,
-      [&bars](const fs::path& log, std::int64_t read, std::int64_t total) { bars.update(log, read, total); });
-  print_flights(options.output, info);
+int run_build(const BuildArguments& arguments) {
+  const auto config = load<DatasetConfig>(arguments.config);
+  if (print_if_asked(arguments.config, config)) return kExitOk;
+  if (arguments.output.empty()) throw ConfigError("--output is missing: name the folder to make");
+  const Rig rig = load_rig(find_rig_file(config.rig, arguments.config.file));
+  BuildBar bar;
+  BuildOptions options;
+  options.at_once = arguments.jobs;
+  options.progress = [&bar](std::int64_t done, std::int64_t total) { bar.update(done, total); };
+  const BuildResult result = build_dataset(config, rig, logs_of(arguments), arguments.output, options);
+  bar.finish();
+  print_flights(arguments.output, result.info);
+  if (!result.kept.empty())
+    std::printf("%zu flights built, %zu up to date\n", result.built.size(), result.kept.size());
+  for (const std::string& error : result.failed) std::fprintf(stderr, "alight-dataset: %s\n", error.c_str());
+  if (result.failed.empty()) return kExitOk;
+  std::fprintf(stderr, "alight-dataset: %zu of %zu logs are not in %s\n", result.failed.size(),
+               result.failed.size() + result.built.size() + result.kept.size(), arguments.output.c_str());
+  return kExitFailure;
+}
+
+int run_merge(const MergeArguments& arguments) {
+  const std::vector<fs::path> parts(arguments.parts.begin(), arguments.parts.end());
+  print_flights(arguments.output, merge_datasets(parts, arguments.output));
   return kExitOk;
 }
 

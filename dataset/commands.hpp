@@ -7,10 +7,12 @@
 
 namespace alight {
 
-struct BuildOptions {
+struct BuildArguments {
   ConfigOptions config;
   std::vector<std::string> logs;
   std::string output;
+  int jobs = 0;       ///< logs at a time, 0: one a core
+  std::string shard;  ///< "i/N": of the logs, only every N-th from the i-th
 };
 
 struct InfoOptions {
@@ -24,9 +26,15 @@ struct ViewOptions {
   std::string output;
 };
 
-/// `alight-dataset build|info|view`: results go to stdout. @returns the exit code. @throws ConfigError,
+struct MergeArguments {
+  std::vector<std::string> parts;
+  std::string output;
+};
+
+/// `alight-dataset build|merge|info|view`: results go to stdout. @returns the exit code. @throws ConfigError,
 /// DataError
-int run_build(const BuildOptions& options);
+int run_build(const BuildArguments& arguments);
+int run_merge(const MergeArguments& arguments);
 int run_info(const InfoOptions& options);
 int run_view(const ViewOptions& options);
 

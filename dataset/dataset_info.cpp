@@ -2,24 +2,12 @@
 #include <sstream>
 
 #include "configs/config_reader.hpp"
+#include "dataset/flight_section.hpp"
 #include "dataset/sample_store.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
 namespace {
-
-struct DroppedEntry {
-  std::string reason;
-  std::int64_t count = 0;
-};
-
-struct FlightSection {
-  std::string name;
-  int samples = 0;
-  bool has_right = false;
-  bool has_dense = false;
-  std::vector<DroppedEntry> dropped;
-};
 
 struct RigSection {
   PinholeIntrinsics intrinsics;
@@ -39,21 +27,6 @@ struct InfoFile {
   std::string config;
   bool with_config = true;
 };
-
-void bind(Binder& b, DroppedEntry& c) {
-  b.required("reason", c.reason, "what was left out");
-  b.required("count", c.count, "how many");
-}
-
-void bind(Binder& b, FlightSection& c) {
-  b.required("name", c.name, "folder of the flight");
-  b.check("name", c.name.find('/') == std::string::npos && c.name != "..",
-          "\"" + c.name + "\" is no folder's name");
-  b.required("samples", c.samples, "lines of its samples.csv", at_least(0));
-  b.required("has_right", c.has_right, "stereo");
-  b.required("has_dense", c.has_dense, "with the simulator's true depth");
-  b.list("dropped", c.dropped, "what was left out of the log, and why");
-}
 
 void bind_transform(Binder& b, const std::string& key, std::vector<std::vector<double>>& rows,
                     const std::string& help) {
@@ -89,11 +62,7 @@ InfoFile to_file(const DatasetInfo& info) {
       info.format_version, info.depth_scale, info.window_before_s, info.window_after_s, {}, {}, {}, false};
   file.rig = {info.rig.intrinsics, info.rig.baseline_m, matrix_rows(info.rig.T_camera_lidar),
               matrix_rows(info.rig.T_camera_imu)};
-  for (const FlightEntry& flight : info.flights) {
-    FlightSection section{flight.name, flight.samples, flight.has_right, flight.has_dense, {}};
-    for (const auto& [reason, count] : flight.dropped) section.dropped.push_back({reason, count});
-    file.flights.push_back(std::move(section));
-  }
+  for (const FlightEntry& flight : info.flights) file.flights.push_back(to_section(flight));
   return file;
 }
 
@@ -106,11 +75,7 @@ DatasetInfo from_file(const InfoFile& file) {
   info.accumulation_s = file.window_before_s + file.window_after_s;
   info.rig = {file.rig.intrinsics, file.rig.baseline_m, *isometry_from_rows(file.rig.T_camera_lidar),
               *isometry_from_rows(file.rig.T_camera_imu)};
-  for (const FlightSection& section : file.flights) {
-    FlightEntry flight{section.name, section.samples, {}, section.has_right, section.has_dense};
-    for (const DroppedEntry& entry : section.dropped) flight.dropped[entry.reason] = entry.count;
-    info.flights.push_back(std::move(flight));
-  }
+  for (const FlightSection& section : file.flights) info.flights.push_back(from_section(section));
   info.config = file.config;
   return info;
 }

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <spdlog/spdlog.h>
 
 #include "configs/errors.hpp"
-#include "dataset/bag_access.hpp"
-#include "dataset/bag_check.hpp"
+#include "dataset/bag_messages.hpp"
 #include "dataset/message_assembler.hpp"
 
 namespace alight {
@@ -26,8 +24,6 @@ struct Reading {
   const Decoder* decoder;
 };
 
-std::int64_t nanoseconds(const ros::Time& time) { return static_cast<std::int64_t>(time.toNSec()); }
-
 }  // namespace
 
 struct FlightLog::Impl {
@@ -36,17 +32,15 @@ struct FlightLog::Impl {
         rig(rig_in),
         config(config_in),
         topics(std::move(topics_in)),
-        assembler(rig_in, config_in) {
-    require_file(path);
-    check_bag_structure(path);
-    with_bag_errors(path, [&] { open(); });
+        assembler(rig_in, config_in),
+        bag(path) {
+    open();
   }
 
   void open();
-  void choose(const SensorTopic& wanted, const std::vector<const rosbag::ConnectionInfo*>& connections);
-  void choose(const SensorTopic& found, const rosbag::ConnectionInfo& connection);
+  void choose(const SensorTopic& wanted);
+  void choose(const SensorTopic& found, const BagConnection& connection);
   std::string topics_present() const;
-  void count_messages();
 
   bool read_message();
   void decode(const Reading& reading, const RawMessage& raw, const std::string& topic);
@@ -60,38 +54,31 @@ struct FlightLog::Impl {
   MessageAssembler assembler;
   LogSummary summary;
 
-  rosbag::Bag bag;
-  std::unique_ptr<rosbag::View> view;
-  rosbag::View::iterator at;
+  BagMessages bag;
   std::map<std::string, std::vector<Reading>> readings;  // by topic
   std::map<std::string, std::string> present;            // topic -> type
   std::map<std::string, std::int64_t> bad;               // by topic
-  ByteSink sink;
   std::int64_t consumed = 0;
   std::int64_t receive_ns = 0;
   bool finished = false;
 };
 
 void FlightLog::Impl::open() {
-  bag.open(path.string(), rosbag::bagmode::Read);
-  rosbag::View all(bag);
-  const auto connections = all.getConnections();
-  for (const rosbag::ConnectionInfo* connection : connections)
-    present[connection->topic] = connection->datatype;
-  if (all.size() == 0) throw DataError(path.string() + ": holds no messages; record it again");
-  for (const SensorTopic& wanted : topics) choose(wanted, connections);
-  count_messages();
-  view = std::make_unique<rosbag::View>(bag, [this](const rosbag::ConnectionInfo* connection) {
-    return readings.count(connection->topic) != 0;
-  });
-  summary.messages = view->size();
-  summary.begin_ns = nanoseconds(view->getBeginTime());
-  summary.end_ns = nanoseconds(view->getEndTime());
-  at = view->begin();
+  for (const BagConnection& connection : bag.connections()) present[connection.topic] = connection.type;
+  for (const SensorTopic& wanted : topics) choose(wanted);
+  std::set<std::string> read;
+  for (const auto& [topic, list] : readings) {
+    summary.topic_messages[topic] = bag.count(topic);
+    read.insert(topic);
+  }
+  summary.messages = bag.select(read);
+  summary.begin_ns = bag.begin_ns();
+  summary.end_ns = bag.end_ns();
+  if (bag.lost_bytes() > 0)
+    summary.dropped["bytes at the end of a bag without index"] = static_cast<std::int64_t>(bag.lost_bytes());
 }
 
-void FlightLog::Impl::choose(const SensorTopic& wanted,
-                             const std::vector<const rosbag::ConnectionInfo*>& connections) {
+void FlightLog::Impl::choose(const SensorTopic& wanted) {
   const auto& [sensor, topic] = wanted;
   const std::string found = present.count(topic) != 0 ? topic : topic + "/compressed";
   if (present.count(found) == 0) {
@@ -102,15 +89,15 @@ void FlightLog::Impl::choose(const SensorTopic& wanted,
     spdlog::warn("{}: no topic {} ({}); heights stay unknown", path.string(), topic, name(sensor));
     return;
   }
-  for (const rosbag::ConnectionInfo* connection : connections) {
-    if (connection->topic == found) choose({sensor, found}, *connection);
+  for (const BagConnection& connection : bag.connections()) {
+    if (connection.topic == found) choose({sensor, found}, connection);
   }
 }
 
-void FlightLog::Impl::choose(const SensorTopic& found, const rosbag::ConnectionInfo& connection) {
+void FlightLog::Impl::choose(const SensorTopic& found, const BagConnection& connection) {
   const Decoder* decoder = nullptr;
   try {
-    decoder = &require_decoder(found, connection.datatype, connection.md5sum);
+    decoder = &require_decoder(found, connection.type, connection.md5);
   } catch (const DataError& e) {
     throw DataError(path.string() + ": " + e.what());
   }
@@ -126,26 +113,16 @@ std::string FlightLog::Impl::topics_present() const {
   return text;
 }
 
-void FlightLog::Impl::count_messages() {
-  for (const auto& [topic, list] : readings) {
-    rosbag::View one(bag, rosbag::TopicQuery(topic));
-    summary.topic_messages[topic] = one.size();
-  }
-}
-
 bool FlightLog::Impl::read_message() {
-  if (at == view->end()) {
+  std::string topic;
+  RawMessage raw;
+  if (!bag.next(topic, raw)) {
     finish();
     return false;
   }
-  const rosbag::MessageInstance& message = *at;
-  sink.bytes.clear();
-  message.write(sink);
-  receive_ns = nanoseconds(message.getTime());
-  const RawMessage raw{sink.bytes.data(), sink.bytes.size(), receive_ns};
-  for (const Reading& reading : readings.at(message.getTopic())) decode(reading, raw, message.getTopic());
+  receive_ns = raw.receive_ns;
+  for (const Reading& reading : readings.at(topic)) decode(reading, raw, topic);
   ++consumed;
-  ++at;
   return true;
 }
 
@@ -191,14 +168,12 @@ FlightLog::FlightLog(FlightLog&&) noexcept = default;
 FlightLog& FlightLog::operator=(FlightLog&&) noexcept = default;
 
 bool FlightLog::next(LogMessage& out) {
-  return with_bag_errors(impl_->path, [&] {
-    std::optional<LogMessage> message;
-    while (!(message = impl_->assembler.take())) {
-      if (!impl_->read_message()) return false;
-    }
-    out = std::move(*message);
-    return true;
-  });
+  std::optional<LogMessage> message;
+  while (!(message = impl_->assembler.take())) {
+    if (!impl_->read_message()) return false;
+  }
+  out = std::move(*message);
+  return true;
 }
 
 std::int64_t FlightLog::receive_ns() const { return impl_->receive_ns; }

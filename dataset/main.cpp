@@ -7,19 +7,35 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  alight-dataset build --config configs/dataset/default.yaml --log a.bag --log b.bag --output "
       "data/demo\n"
+      "  alight-dataset merge data/part_1 data/part_2 --output data/demo\n"
       "  alight-dataset info data/demo\n"
       "  alight-dataset view data/demo --sample 12 --flight a --output sample.png");
 
-  alight::BuildOptions build;
+  alight::BuildArguments build;
   CLI::App* build_app = app.add_subcommand("build", "Make a data set of ROS 1 bags");
   alight::add_config_options(*build_app, build.config);
   build_app->add_option("-l,--log", build.logs, "A ROS 1 bag; repeat for more flights")
       ->allow_extra_args(false);
-  build_app->add_option("-o,--output", build.output, "Folder to make; must not exist");
+  build_app->add_option("-o,--output", build.output, "Folder to make, or an earlier data set to add to");
+  build_app->add_option("-j,--jobs", build.jobs, "Logs read at a time (default: one a core)")
+      ->check(CLI::PositiveNumber);
+  build_app->add_option("--shard", build.shard, "i/N: only every N-th of the logs, from the i-th; see merge");
   build_app->footer(
       "Examples:\n"
       "  alight-dataset build --config configs/dataset/default.yaml --log a.bag --output data/demo\n"
-      "  alight-dataset build --log a.bag --set depth_map.window_after_s=0.5 --output data/short");
+      "  alight-dataset build --log a.bag --set depth_map.window_after_s=0.5 --output data/short\n"
+      "  alight-dataset build --log a.bag --log b.bag --output data/demo          adds b, a is up to date\n"
+      "  alight-dataset build --log a.bag --log b.bag --shard 2/2 --output data/part_2\n"
+      "A log that cannot be read is named and left out (exit code 1); the others are built.");
+
+  alight::MergeArguments merge;
+  CLI::App* merge_app = app.add_subcommand("merge", "Make one data set of several, such as those of --shard");
+  merge_app->add_option("parts", merge.parts, "Data sets of one configuration and rig")->required();
+  merge_app->add_option("-o,--output", merge.output, "Folder to make; must not exist")->required();
+  merge_app->footer(
+      "Examples:\n"
+      "  alight-dataset merge data/part_1 data/part_2 --output data/demo\n"
+      "Files are linked where the file system can, else copied; the parts stay.");
 
   alight::InfoOptions info;
   CLI::App* info_app = app.add_subcommand("info", "Print what is in a data set");
@@ -37,6 +53,7 @@ int main(int argc, char** argv) {
 
   return alight::run_tool(app, argc, argv, [&] {
     if (build_app->parsed()) return alight::run_build(build);
+    if (merge_app->parsed()) return alight::run_merge(merge);
     if (info_app->parsed()) return alight::run_info(info);
     return alight::run_view(view);
   });

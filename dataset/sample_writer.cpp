@@ -4,7 +4,9 @@
 
 namespace alight {
 
-SampleWriter::SampleWriter(std::size_t max_waiting) : max_waiting_(max_waiting), thread_([this] { run(); }) {}
+SampleWriter::SampleWriter(int threads, std::size_t max_waiting) : max_waiting_(max_waiting) {
+  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+}
 
 SampleWriter::~SampleWriter() {
   {
@@ -13,7 +15,7 @@ SampleWriter::~SampleWriter() {
     jobs_.clear();
   }
   changed_.notify_all();
-  thread_.join();
+  for (std::thread& thread : threads_) thread.join();
 }
 
 void SampleWriter::add(std::function<void()> job) {
@@ -26,7 +28,7 @@ void SampleWriter::add(std::function<void()> job) {
 
 void SampleWriter::finish() {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [this] { return error_ || (jobs_.empty() && !busy_); });
+  changed_.wait(lock, [this] { return error_ || (jobs_.empty() && busy_ == 0); });
   if (error_) std::rethrow_exception(error_);
 }
 
@@ -37,7 +39,7 @@ void SampleWriter::run() {
     if (stop_) return;
     const std::function<void()> job = std::move(jobs_.front());
     jobs_.pop_front();
-    busy_ = true;
+    ++busy_;
     lock.unlock();
     std::exception_ptr error;
     try {
@@ -46,9 +48,9 @@ void SampleWriter::run() {
       error = std::current_exception();
     }
     lock.lock();
-    busy_ = false;
+    --busy_;
     if (error) {
-      error_ = error;
+      if (!error_) error_ = error;
       jobs_.clear();
     }
     changed_.notify_all();

@@ -7,14 +7,15 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace alight {
 
-/// A thread that runs jobs in order, with a bounded queue: compressing pictures takes longer than making
-/// them. A job's exception comes back at the next `add` or at `finish`; later jobs are then not run.
+/// Threads that take jobs from a bounded queue, in order: compressing pictures takes longer than making them. A job's
+/// exception comes back at the next `add` or at `finish`; jobs that still wait are then not run.
 class SampleWriter {
  public:
-  explicit SampleWriter(std::size_t max_waiting);
+  SampleWriter(int threads, std::size_t max_waiting);
   /// Drops waiting jobs.
   ~SampleWriter();
   SampleWriter(const SampleWriter&) = delete;
@@ -33,9 +34,9 @@ class SampleWriter {
   std::condition_variable changed_;
   std::deque<std::function<void()>> jobs_;
   std::exception_ptr error_;
-  bool busy_ = false;
+  int busy_ = 0;
   bool stop_ = false;
-  std::thread thread_;
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace alight

@@ -105,7 +105,7 @@ TEST_F(LidarCalibrationTest, DataSetsOfTheCalibratedAndTheTrueRigAgree) {
   DatasetConfig build;
   build.depth_map.every_nth_image = 2;
   const auto depth = [&](const Rig& used, const char* name) {
-    const DatasetInfo info = build_dataset(build, used, {folder() / "flight.bag"}, folder() / name);
+    const DatasetInfo info = build_dataset(build, used, {folder() / "flight.bag"}, folder() / name).info;
     const SampleRow row = read_samples(folder() / name, info.flights.at(0).name).at(0);
     return read_sample(folder() / name, info.flights.at(0), row, false).sparse.depth_m;
   };

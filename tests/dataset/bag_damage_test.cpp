@@ -65,14 +65,6 @@ TEST_F(BagDamage, EveryTruncationIsADataError) {
   }
 }
 
-TEST_F(BagDamage, AKilledRecorderIsAdvisedToReindex) {
-  std::string bytes = read_bytes(path_);
-  const std::size_t field = bytes.find("index_pos=") + 10;
-  bytes.replace(field, 8, std::string(8, '\0'));
-  write_bytes(path_, bytes);
-  EXPECT_THAT(read_error(path_), HasSubstr("rosbag reindex"));
-}
-
 /// Flipped bytes anywhere: the log is read or refused, the process never dies of it. Flips inside a message
 /// may go unnoticed, since bags carry no checksum; flips of lengths must not.
 TEST_F(BagDamage, FlippedBytesNeverCrash) {

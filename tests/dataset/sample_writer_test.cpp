@@ -10,7 +10,7 @@ namespace {
 
 TEST(SampleWriter, RunsEveryJobInOrder) {
   std::vector<int> done;
-  SampleWriter writer(2);
+  SampleWriter writer(1, 2);
   for (int i = 0; i < 100; ++i) writer.add([&done, i] { done.push_back(i); });
   writer.finish();
   ASSERT_EQ(done.size(), 100u);
@@ -19,7 +19,7 @@ TEST(SampleWriter, RunsEveryJobInOrder) {
 
 TEST(SampleWriter, AFailureComesBackAndEndsTheWork) {
   int later = 0;
-  SampleWriter writer(1000);
+  SampleWriter writer(2, 1000);
   writer.add([] { throw std::runtime_error("disk full"); });
   EXPECT_THROW(
       {
@@ -31,7 +31,7 @@ TEST(SampleWriter, AFailureComesBackAndEndsTheWork) {
 }
 
 TEST(SampleWriter, EndsWithoutFinish) {
-  SampleWriter writer(10);
+  SampleWriter writer(3, 10);
   writer.add([] {});
 }
 

@@ -98,7 +98,9 @@ class DatasetTruth : public ::testing::Test {
     DatasetConfig config;
     config.depth_map.every_nth_image = 1;
     const fs::path data = folder_ / name;
-    const DatasetInfo info = build_dataset(config, load_rig(rig_file_), {log}, data, {}, point_pose);
+    BuildOptions options;
+    options.point_pose = point_pose;
+    const DatasetInfo info = build_dataset(config, load_rig(rig_file_), {log}, data, options).info;
     const Agreement result = agreement(data, info.flights.at(0));
     std::printf("%s: median %.4f m, within 3 cm %.4f of the %.3f away from edges, %zu pixels\n", name.c_str(),
                 result.median_error_m, result.share_within_3_cm, result.share_away_from_edges, result.pixels);
