@@ -119,10 +119,8 @@ int main(int argc, char** argv) {
   return alight::run_tool(app, argc, argv, [&] {
     const auto config = alight::load<alight::DatasetConfig>(options);
     const alight::Rig rig = alight::load_rig(alight::find_rig_file(config.rig, options.file));
-    std::vector<alight::Sample> samples;
-    build_samples(config, rig, log, [&](BuiltSample s) {
-      samples.push_back({s.left, s.right, s.sparse, {}});
-    });
+    std::vector<BuiltSample> samples;
+    build_samples(config, rig, log, [&](BuiltSample sample) { samples.push_back(std::move(sample)); });
     if (samples.empty()) throw alight::DataError(log + ": gives no sample");
     int maps = 0;
     const double maps_s =
