@@ -5,17 +5,32 @@
 namespace alight {
 
 MessageAssembler::MessageAssembler(const Rig& rig, const LogConfig& config)
-    : rig_(rig),
-      options_{config.min_range_m, config.max_range_m},
-      pairer_(to_nanoseconds(config.stereo_pair_tolerance_s)) {}
+    : rig_(rig), config_(config), pairer_(to_nanoseconds(config.stereo_pair_tolerance_s)) {}
 
 void MessageAssembler::add(Sensor sensor, const Decoder& decoder, const RawMessage& raw) {
-  std::optional<DecodedMessage> decoded = decoder.decode(raw, options_);
+  std::optional<DecodedMessage> decoded = decoder.decode(raw, options_of(sensor));
   if (!decoded) {
     ++dropped_[std::string(name(sensor)) + " messages without a measurement"];
     return;
   }
   accept(sensor, std::move(*decoded));
+}
+
+DecodeOptions MessageAssembler::options_of(Sensor sensor) const {
+  DecodeOptions options;
+  options.min_range_m = config_.min_range_m;
+  options.max_range_m = config_.max_range_m;
+  options.frames = {config_.tf_world_frame, config_.tf_body_frame};
+  if (sensor == Sensor::kLeft) options.stamp = rig_.cam0.stamp;
+  if (sensor == Sensor::kRight) options.stamp = rig_.cam1->stamp;
+  if (sensor == Sensor::kAttitude) options.stamp = config_.attitude_stamp;
+  if (sensor == Sensor::kPosition) options.stamp = config_.position_stamp;
+  if (sensor == Sensor::kLidar) {
+    options.stamp = rig_.lidar0->stamp;
+    options.points = rig_.lidar0->points;
+    options.reflectivity_scale = rig_.lidar0->reflectivity_scale;
+  }
+  return options;
 }
 
 std::optional<LogMessage> MessageAssembler::take() {
@@ -37,18 +52,25 @@ void MessageAssembler::accept(Sensor sensor, DecodedMessage decoded) {
   if (auto* image = std::get_if<CameraImage>(&decoded)) return accept_image(sensor, std::move(*image));
   if (auto* packet = std::get_if<LidarPacket>(&decoded)) return accept_packet(std::move(*packet));
   if (auto* attitude = std::get_if<AttitudeSample>(&decoded)) {
-    ready_.emplace_back(*attitude);
+    accept_timed(*attitude, config_.attitude_timeshift_s);
   } else if (auto* position = std::get_if<PositionSample>(&decoded)) {
-    ready_.emplace_back(*position);
+    accept_timed(*position, config_.position_timeshift_s);
   } else {
-    ready_.emplace_back(std::get<HeightSample>(decoded));
+    accept_timed(std::get<HeightSample>(decoded), config_.height_timeshift_s);
   }
 }
 
-/// The eyes are triggered together, so they are paired by the stamps as recorded; the frame's time is the
-/// left eye's.
+template <class Sample>
+void MessageAssembler::accept_timed(Sample sample, double timeshift_s) {
+  sample.t_ns += to_nanoseconds(timeshift_s);
+  ready_.emplace_back(std::move(sample));
+}
+
+/// The eyes are triggered together, so they are paired by the stamps as recorded, where the configuration knows of no
+/// difference between their clocks; the frame's time is the left eye's.
 void MessageAssembler::accept_image(Sensor sensor, CameraImage image) {
   require_size(image);
+  if (sensor == Sensor::kRight) image.t_ns -= to_nanoseconds(config_.right_stamp_lead_s);
   std::optional<StereoFrame> frame;
   if (!rig_.cam1) {
     frame = StereoFrame{image.t_ns, std::move(image.image), {}};

@@ -33,12 +33,15 @@ class MessageAssembler {
 
  private:
   void require_size(const CameraImage& image) const;
+  DecodeOptions options_of(Sensor sensor) const;
   void accept(Sensor sensor, DecodedMessage decoded);
+  template <class Sample>
+  void accept_timed(Sample sample, double timeshift_s);
   void accept_image(Sensor sensor, CameraImage image);
   void accept_packet(LidarPacket packet);
 
   Rig rig_;
-  DecodeOptions options_;
+  LogConfig config_;
   StereoPairer pairer_;
   std::deque<LogMessage> ready_;
   std::map<std::string, std::int64_t> dropped_;

@@ -102,7 +102,7 @@ class PlaneFlight {
 
   PositionSample fix(std::int64_t t_ns, const Eigen::Vector3d& p_world) const {
     const Eigen::Vector3d geodetic = enu_.to_geodetic(p_world - moving_pose(0).translation());
-    return {t_ns, geodetic.x(), geodetic.y(), geodetic.z()};
+    return {t_ns, GeodeticPosition{geodetic.x(), geodetic.y(), geodetic.z()}};
   }
 
   LidarPacket packet(std::int64_t t_ns) {
@@ -156,7 +156,7 @@ class HoverTest : public ::testing::Test {
   void poses(std::int64_t from_ms, std::int64_t to_ms) {
     for (std::int64_t ms = from_ms; ms <= to_ms; ms += 10) {
       builder_->add(AttitudeSample{at(ms), Eigen::Quaterniond::Identity()});
-      builder_->add(PositionSample{at(ms), 31, 121, 0});
+      builder_->add(PositionSample{at(ms), GeodeticPosition{31, 121, 0}});
     }
   }
   void image(std::int64_t ms) {
