@@ -35,6 +35,7 @@ double seconds_of(const std::function<void()>& body) {
 void build_samples(const alight::DatasetConfig& config, const alight::Rig& rig, const fs::path& log,
                    const std::function<void(BuiltSample)>& take) {
   alight::FlightLog messages(log, rig, config.log);
+  messages.keep_every_nth_image(config.depth_map.every_nth_image);
   alight::DepthMapBuilder builder(rig, config.depth_map);
   const auto take_ready = [&] {
     while (auto sample = builder.next()) take(std::move(*sample));

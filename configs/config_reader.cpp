@@ -170,6 +170,13 @@ YAML::Node Binder::take(const std::string& key) {
   return map[key];
 }
 
+bool Binder::is_section(const std::string& key) const {
+  if (!node_.IsDefined() || !node_.IsMap()) return false;
+  const YAML::Node& map = node_;
+  const YAML::Node value = map[key];
+  return value.IsDefined() && value.IsMap();
+}
+
 bool Binder::has_override_below(const std::string& path) const {
   const auto found = shared_->overrides.lower_bound(path + ".");
   return found != shared_->overrides.end() && found->first.compare(0, path.size() + 1, path + ".") == 0;

@@ -81,6 +81,12 @@ class Binder {
   /// A key that other programs write and that we know but do not use.
   void ignore(const std::string& key);
 
+  /// True if the key holds a section rather than a value, for keys that take either.
+  bool is_section(const std::string& key) const;
+
+  /// Found so far in the whole file.
+  std::size_t mistakes() const { return shared_ == nullptr ? 0 : shared_->errors.size(); }
+
   /// False while printing: checks that need the loaded values can be left out.
   bool loading() const { return printed_ == nullptr; }
 

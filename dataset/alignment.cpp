@@ -10,9 +10,7 @@
 namespace alight {
 
 bool FlightTrajectory::add(const PositionSample& sample) {
-  if (!enu_) enu_.emplace(sample.latitude_deg, sample.longitude_deg, sample.altitude_m);
-  return trajectory_.add_position(
-      sample.t_ns, enu_->to_world(sample.latitude_deg, sample.longitude_deg, sample.altitude_m));
+  return trajectory_.add_position(sample.t_ns, world_.to_world(sample));
 }
 
 void HeightTrack::add(const HeightSample& sample) {

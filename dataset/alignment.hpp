@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dataset/messages/message_types.hpp"
-#include "geometry/geodesy.hpp"
+#include "dataset/world_frame.hpp"
 #include "geometry/projection.hpp"
 #include "geometry/trajectory.hpp"
 
@@ -18,8 +18,7 @@ namespace alight {
 /// what the paper's alignment corrects; it is kept so that a test can show that the difference is seen.
 enum class PointPose { kOwnTime, kImageTime };
 
-/// The vehicle's pose from the messages of a flight (paper 3.1 step 1); `world` is East-North-Up at the first
-/// fix.
+/// The vehicle's pose from the messages of a flight (paper 3.1 step 1), in the `world` of WorldFrame.
 class FlightTrajectory {
  public:
   explicit FlightTrajectory(double max_pose_gap_s) : trajectory_(max_pose_gap_s) {}
@@ -39,7 +38,7 @@ class FlightTrajectory {
 
  private:
   Trajectory trajectory_;
-  std::optional<LocalEnu> enu_;
+  WorldFrame world_;
 };
 
 /// The height above take-off over time, linear between samples.

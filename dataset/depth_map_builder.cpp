@@ -79,10 +79,6 @@ void DepthMapBuilder::add(LogMessage message) {
 }
 
 void DepthMapBuilder::add_frame(StereoFrame frame) {
-  if (images_seen_++ % config_.every_nth_image != 0) {
-    ++dropped_["images left out by every_nth_image"];
-    return;
-  }
   if (frame.t_ns <= last_frame_ns_) {
     ++dropped_["images not later than the one before"];
     return;

@@ -23,7 +23,7 @@ struct DepthMapConfig {
   /// input window is drawn from the points after the image, and the ones before are ground truth that it
   /// never sees.
   double window_after_s = 1.0;
-  int every_nth_image = 4;  ///< 20 Hz images of a slow vehicle are nearly alike
+  int every_nth_image = 4;  ///< that the log hands on: 20 Hz images of a slow vehicle are nearly alike
   double min_depth_m = 0.5;
   double max_depth_m = 250.0;
   double max_pose_gap_s = 0.25;  ///< poses are not interpolated across longer gaps
@@ -95,7 +95,6 @@ class DepthMapBuilder {
   std::deque<StereoFrame> frames_;
   std::deque<WaitingPacket> packets_;
   std::map<std::string, std::int64_t> dropped_;
-  std::int64_t images_seen_ = 0;
   std::int64_t last_frame_ns_;
   std::int64_t placed_until_ns_;  // LiDAR points up to here are in the window
   std::int64_t clock_ns_;         // the latest time of any message

@@ -70,6 +70,7 @@ class FlightBuild {
         path_(log),
         log_(log, rig, config.log),
         builder_(rig, config.depth_map, point_pose) {
+    log_.keep_every_nth_image(config.depth_map.every_nth_image);
     dense_folder_ = usable_dense_folder(log, builder_);
     flight_.name = flight_name(log);
     flight_.has_right = rig.cam1.has_value();

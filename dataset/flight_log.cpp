@@ -176,6 +176,7 @@ bool FlightLog::next(LogMessage& out) {
   return true;
 }
 
+void FlightLog::keep_every_nth_image(int n) { impl_->assembler.keep_every_nth_image(n); }
 std::int64_t FlightLog::receive_ns() const { return impl_->receive_ns; }
 std::int64_t FlightLog::consumed() const { return impl_->consumed; }
 const LogSummary& FlightLog::summary() const { return impl_->summary; }

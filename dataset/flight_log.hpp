@@ -38,6 +38,9 @@ class FlightLog {
   FlightLog(FlightLog&&) noexcept;
   FlightLog& operator=(FlightLog&&) noexcept;
 
+  /// Only every n-th frame is decoded and handed on, the others are counted as dropped.
+  void keep_every_nth_image(int n);
+
   /// The next message; false at the end. Messages that do not decode are counted, logged with their place,
   /// skipped.
   /// @throws DataError past max_bad_message_share, or if the bag turns out damaged

@@ -36,8 +36,18 @@ void bind(Binder& b, LogConfig& c) {
           "position of the vehicle: " + accepted_types(LogRole::kPosition));
   b.field("height_topic", c.height_topic,
           "height above take-off, or none: " + accepted_types(LogRole::kHeight));
+  bind_stamp(b, "attitude_stamp", c.attitude_stamp);
+  bind_stamp(b, "position_stamp", c.position_stamp);
+  b.field("attitude_timeshift_s", c.attitude_timeshift_s, "t_imu = t_attitude + timeshift");
+  b.field("position_timeshift_s", c.position_timeshift_s, "t_imu = t_position + timeshift");
+  b.field("height_timeshift_s", c.height_timeshift_s, "t_imu = t_height + timeshift");
+  b.field("tf_world_frame", c.tf_world_frame,
+          "frames of a topic of transforms: the vehicle's pose is that of");
+  b.field("tf_body_frame", c.tf_body_frame, "tf_body_frame in tf_world_frame");
   b.field("stereo_pair_tolerance_s", c.stereo_pair_tolerance_s,
           "left and right of one exposure differ by no more", at_least(0));
+  b.field("right_stamp_lead_s", c.right_stamp_lead_s,
+          "the right camera's stamps are ahead of the left one's by this");
   b.field("min_range_m", c.min_range_m, "LiDAR returns nearer than this are dropped", at_least(0));
   b.field("max_range_m", c.max_range_m, "LiDAR returns farther than this are dropped", positive());
   b.field("max_bad_message_share", c.max_bad_message_share,

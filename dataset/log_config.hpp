@@ -16,7 +16,16 @@ struct LogConfig {
   std::string attitude_topic = "/dji_sdk/attitude";
   std::string position_topic = "/dji_sdk/gps_position";
   std::optional<std::string> height_topic = "/dji_sdk/height_above_takeoff";  ///< none: heights are unknown
+  StampSource attitude_stamp = StampSource::kHeader;
+  StampSource position_stamp = StampSource::kHeader;
+  double attitude_timeshift_s = 0;  ///< t_imu = t_attitude + timeshift
+  double position_timeshift_s = 0;
+  double height_timeshift_s = 0;
+  std::string
+      tf_world_frame;  ///< where attitude or position come from a tree of transforms: of which to which frame
+  std::string tf_body_frame;
   double stereo_pair_tolerance_s = 0.002;  ///< left and right of one exposure differ by no more than this
+  double right_stamp_lead_s = 0;           ///< the right camera's stamps are ahead of the left one's by this
   double min_range_m = 0.5;                ///< LiDAR returns nearer than this are dropped
   double max_range_m = 300.0;              ///< and farther than this
   double max_bad_message_share = 0.01;     ///< of a topic's messages; more that do not decode are fatal

@@ -1,4 +1,5 @@
 #include "dataset/commands.hpp"
+#include "dataset/inspect_command.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"From flight logs to data sets of images with sparse depth maps", "alight-dataset"};
@@ -51,7 +52,14 @@ int main(int argc, char** argv) {
   view_app->add_option("-o,--output", view.output, "PNG to write")->required();
   view_app->footer("Examples:\n  alight-dataset view data/demo --sample 12 --flight a --output sample.png");
 
+  std::string inspected;
+  CLI::App* inspect_app = app.add_subcommand(
+      "inspect", "Print what a ROS 1 bag holds, what it could serve as, and the lines of a rig file for it");
+  inspect_app->add_option("bag", inspected, "A ROS 1 bag")->required();
+  inspect_app->footer("Examples:\n  alight-dataset inspect flight.bag");
+
   return alight::run_tool(app, argc, argv, [&] {
+    if (inspect_app->parsed()) return alight::run_inspect(inspected);
     if (build_app->parsed()) return alight::run_build(build);
     if (merge_app->parsed()) return alight::run_merge(merge);
     if (info_app->parsed()) return alight::run_info(info);

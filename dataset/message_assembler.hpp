@@ -8,17 +8,21 @@
 
 #include "dataset/log_config.hpp"
 #include "dataset/messages/decoders.hpp"
+#include "dataset/stamp_guard.hpp"
 #include "dataset/stereo_pairing.hpp"
 #include "geometry/rig.hpp"
 
 namespace alight {
 
-/// From the bytes of ROS messages to what the engine takes: decoded, with the rig's time shifts applied (Kalibr: t_imu =
+/// From the bytes of ROS messages to what the engine takes: without those whose stamps cannot be true, decoded, with the rig's time shifts applied (Kalibr: t_imu =
 /// t_sensor + timeshift) and left and right images paired. Logs and live topics go through this one class, so that the
 /// same messages in the same order give the same results.
 class MessageAssembler {
  public:
   MessageAssembler(const Rig& rig, const LogConfig& config);
+
+  /// Only every n-th frame is decoded and handed on, the others are counted. For whoever does not need all of them.
+  void keep_every_nth_image(int n) { every_nth_image_ = n; }
 
   /// @throws DecodeError if the bytes are not what the type promises, or an image has another size than the rig's camera
   void add(Sensor sensor, const Decoder& decoder, const RawMessage& raw);
@@ -32,14 +36,22 @@ class MessageAssembler {
   std::int64_t waiting() const { return pairer_.waiting(); }
 
  private:
-  void require_size(const CameraImage& image) const;
-  void accept(Sensor sensor, DecodedMessage decoded);
-  void accept_image(Sensor sensor, CameraImage image);
+  DecodeOptions options_of(Sensor sensor) const;
+  void accept(Sensor sensor, DecodedMessage decoded, std::int64_t receive_ns);
+  template <class Sample>
+  void accept_timed(Sample sample, double timeshift_s);
+  void add_image(Sensor sensor, const Decoder& decoder, const RawMessage& raw);
+  void accept_frame(const UndecodedImage& left, const UndecodedImage* right);
+  cv::Mat decode(Sensor sensor, const UndecodedImage& image) const;
+  bool stamp_is_usable(Sensor sensor, std::int64_t t_ns, std::int64_t receive_ns);
   void accept_packet(LidarPacket packet);
 
   Rig rig_;
-  DecodeOptions options_;
+  LogConfig config_;
   StereoPairer pairer_;
+  int every_nth_image_ = 1;
+  std::int64_t frames_seen_ = 0;
+  std::map<Sensor, StampGuard> stamp_guards_;
   std::deque<LogMessage> ready_;
   std::map<std::string, std::int64_t> dropped_;
 };

@@ -3,20 +3,32 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-
-#include "dataset/messages/message_types.hpp"
+#include <utility>
+#include <vector>
 
 namespace alight {
 
-/// Puts the two eyes of one exposure together. Each eye's images must come in time order; the two streams may
-/// be shifted against each other by any number of messages.
+struct Decoder;
+
+/// An image of one eye as it came, not decoded yet.
+struct UndecodedImage {
+  std::int64_t t_ns = 0;
+  const Decoder* decoder = nullptr;
+  std::vector<std::uint8_t> bytes;
+  std::int64_t receive_ns = 0;
+};
+
+/// Puts the two eyes of one exposure together, before anything is decoded. Each eye's images must come in time order; the
+/// two streams may be shifted against each other by any number of messages.
 class StereoPairer {
  public:
+  using Pair = std::pair<UndecodedImage, UndecodedImage>;  ///< left, right
+
   explicit StereoPairer(std::int64_t tolerance_ns) : tolerance_ns_(tolerance_ns) {}
 
-  /// @returns the frame that this image completes; its time is the left image's
-  std::optional<StereoFrame> add_left(CameraImage image);
-  std::optional<StereoFrame> add_right(CameraImage image);
+  /// @returns the pair that this image completes
+  std::optional<Pair> add_left(UndecodedImage image);
+  std::optional<Pair> add_right(UndecodedImage image);
 
   /// Images that had no partner, without those that still wait for one.
   std::int64_t unpaired() const { return unpaired_; }
@@ -24,13 +36,13 @@ class StereoPairer {
   std::int64_t waiting() const { return static_cast<std::int64_t>(left_.size() + right_.size()); }
 
  private:
-  std::optional<StereoFrame> match();
-  void add(std::deque<CameraImage>& queue, CameraImage image);
+  std::optional<Pair> match();
+  void add(std::deque<UndecodedImage>& queue, UndecodedImage image);
 
   std::int64_t tolerance_ns_;
   std::int64_t unpaired_ = 0;
-  std::deque<CameraImage> left_;
-  std::deque<CameraImage> right_;
+  std::deque<UndecodedImage> left_;
+  std::deque<UndecodedImage> right_;
 };
 
 }  // namespace alight

@@ -17,12 +17,16 @@ struct CameraYaml {
   std::optional<Rows> T_cn_cnm1;
   std::optional<Rows> T_cam_imu;
   double timeshift_cam_imu = 0;
+  StampSource stamp = StampSource::kHeader;
   std::string rostopic;
 };
 
 struct LidarYaml {
   Rows T_cam_lidar;
   double timeshift = 0;
+  StampSource stamp = StampSource::kHeader;
+  PointTiming points;
+  double reflectivity_scale = 1;
   std::string rostopic;
 };
 
@@ -34,7 +38,8 @@ struct RigYaml {
 
 void check_transform(Binder& b, const std::string& key, const std::optional<Rows>& rows) {
   b.check(key, !rows || isometry_from_rows(*rows).has_value(),
-          "is no rigid transform: expected 4 rows of 4 numbers, the upper left 3x3 a rotation (R^T R = I, "
+          "is no rigid transform: expected 4 rows of 4 numbers, the upper left "
+          "3x3 a rotation (R^T R = I, "
           "det R = +1), "
           "the last row 0 0 0 1");
 }
@@ -59,7 +64,8 @@ void bind(Binder& b, CameraYaml& c) {
   b.field("distortion_coeffs", c.distortion_coeffs,
           "radtan: k1 k2 p1 p2 [k3 [k4 k5 k6]]; equidistant: k1 k2 k3 k4");
   b.check("distortion_coeffs", !model_known || coefficient_count_fits(c),
-          "expected 4, 5 or 8 coefficients for radtan, 4 for equidistant, none for none");
+          "expected 4, 5 or 8 coefficients for radtan, 4 for equidistant, none "
+          "for none");
   b.required("resolution", c.resolution, "[width, height] in pixels", at_least(1));
   b.check("resolution", c.resolution.size() == 2, "expected [width, height]");
   b.field("T_cn_cnm1", c.T_cn_cnm1, "4x4, this camera from the one before it (cam0 -> cam1)");
@@ -67,6 +73,7 @@ void bind(Binder& b, CameraYaml& c) {
   b.field("T_cam_imu", c.T_cam_imu, "4x4, this camera from the IMU");
   check_transform(b, "T_cam_imu", c.T_cam_imu);
   b.field("timeshift_cam_imu", c.timeshift_cam_imu, "seconds; t_imu = t_cam + timeshift");
+  bind_stamp(b, "stamp", c.stamp);
   b.field("rostopic", c.rostopic, "topic of the images");
   b.ignore("cam_overlaps");
 }
@@ -75,6 +82,9 @@ void bind(Binder& b, LidarYaml& c) {
   b.required("T_cam_lidar", c.T_cam_lidar, "4x4, cam0 from the LiDAR");
   check_transform(b, "T_cam_lidar", c.T_cam_lidar);
   b.field("timeshift", c.timeshift, "seconds; t_imu = t_lidar + timeshift");
+  bind_stamp(b, "stamp", c.stamp);
+  bind_point_timing(b, c.points);
+  b.field("reflectivity_scale", c.reflectivity_scale, "from the driver's intensity to 0 .. 255", positive());
   b.field("rostopic", c.rostopic, "topic of the points");
 }
 
@@ -98,8 +108,18 @@ RigCamera to_camera(const CameraYaml& yaml) {
   camera.camera.distortion_coeffs = yaml.distortion_coeffs;
   if (yaml.T_cam_imu) camera.T_camera_imu = isometry_from_rows(*yaml.T_cam_imu);
   camera.timeshift_cam_imu_s = yaml.timeshift_cam_imu;
+  camera.stamp = yaml.stamp;
   camera.topic = yaml.rostopic;
   return camera;
+}
+
+RigLidar to_lidar(const LidarYaml& yaml) {
+  return {*isometry_from_rows(yaml.T_cam_lidar),
+          yaml.timeshift,
+          yaml.stamp,
+          yaml.points,
+          yaml.reflectivity_scale,
+          yaml.rostopic};
 }
 
 Rig to_rig(const RigYaml& yaml) {
@@ -110,8 +130,7 @@ Rig to_rig(const RigYaml& yaml) {
     rig.T_cam1_cam0 = *isometry_from_rows(*yaml.cam1->T_cn_cnm1);
   }
   if (yaml.lidar0) {
-    rig.lidar0 = RigLidar{*isometry_from_rows(yaml.lidar0->T_cam_lidar), yaml.lidar0->timeshift,
-                          yaml.lidar0->rostopic};
+    rig.lidar0 = to_lidar(*yaml.lidar0);
   }
   return rig;
 }
@@ -128,6 +147,7 @@ CameraYaml to_yaml(const RigCamera& camera) {
   yaml.distortion_coeffs = camera.camera.distortion_coeffs;
   if (camera.T_camera_imu) yaml.T_cam_imu = matrix_rows(*camera.T_camera_imu);
   yaml.timeshift_cam_imu = camera.timeshift_cam_imu_s;
+  yaml.stamp = camera.stamp;
   yaml.rostopic = camera.topic;
   return yaml;
 }
@@ -155,7 +175,8 @@ std::optional<Eigen::Isometry3d> isometry_from_rows(const Rows& rows) {
   if (!is_rotation(M.topLeftCorner<3, 3>())) return std::nullopt;
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   const Eigen::Matrix3d R = M.topLeftCorner<3, 3>();
-  // A rounded matrix is made orthonormal; an exact one stays as it is, bit for bit.
+  // A rounded matrix is made orthonormal; an exact one stays as it is, bit for
+  // bit.
   T.linear() = is_rotation(R, 1e-12) ? R : nearest_rotation(R);
   T.translation() = M.topRightCorner<3, 1>();
   return T;
@@ -175,8 +196,9 @@ std::string format_rig(const Rig& rig) {
     yaml.cam1->T_cn_cnm1 = matrix_rows(rig.T_cam1_cam0);
   }
   if (rig.lidar0) {
-    yaml.lidar0 =
-        LidarYaml{matrix_rows(rig.lidar0->T_camera_lidar), rig.lidar0->timeshift_s, rig.lidar0->topic};
+    const RigLidar& lidar = *rig.lidar0;
+    yaml.lidar0 = LidarYaml{matrix_rows(lidar.T_camera_lidar), lidar.timeshift_s, lidar.stamp, lidar.points,
+                            lidar.reflectivity_scale,          lidar.topic};
   }
   return print_config(yaml);
 }

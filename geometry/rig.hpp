@@ -8,6 +8,7 @@
 
 #include "configs/config_reader.hpp"
 #include "geometry/camera.hpp"
+#include "geometry/point_timing.hpp"
 
 namespace alight {
 
@@ -16,6 +17,7 @@ struct RigCamera {
   Camera camera;
   std::optional<Eigen::Isometry3d> T_camera_imu;
   double timeshift_cam_imu_s = 0;  ///< t_imu = t_cam + timeshift (Kalibr)
+  StampSource stamp = StampSource::kHeader;
   std::string topic;
 };
 
@@ -23,6 +25,9 @@ struct RigCamera {
 struct RigLidar {
   Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();  ///< lidar -> cam0
   double timeshift_s = 0;                                            ///< t_imu = t_lidar + timeshift
+  StampSource stamp = StampSource::kHeader;
+  PointTiming points;
+  double reflectivity_scale = 1;  ///< from the driver's intensity to 0 .. 255
   std::string topic;
 };
 

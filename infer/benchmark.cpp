@@ -71,7 +71,8 @@ std::vector<LogMessage> synthetic_hover(const Rig& rig, double height_m, double 
   const std::int64_t end_ns = to_nanoseconds(duration_s);
   for (std::int64_t t_ns = 0; t_ns <= end_ns; t_ns += kPosePeriod_ns) {
     messages.push_back(AttitudeSample{t_ns, q_world_imu});
-    if (t_ns % (2 * kPosePeriod_ns) == 0) messages.push_back(PositionSample{t_ns, 22.3, 114.2, height_m});
+    if (t_ns % (2 * kPosePeriod_ns) == 0)
+      messages.push_back(PositionSample{t_ns, GeodeticPosition{22.3, 114.2, height_m}});
     if (t_ns > 0 && t_ns % kImagePeriod_ns == 0)
       messages.push_back(stereo_frame(rig, ground, height_m, t_ns));
     if (t_ns > 0 && t_ns % kLidarPeriod_ns == 0) messages.push_back(lidar_packet(height_m, t_ns, random));

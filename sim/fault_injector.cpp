@@ -147,7 +147,7 @@ FaultFilter lidar_mirrored(std::int64_t from_ns, const Eigen::Vector3f& signs) {
 
 FaultFilter position_jumps(std::int64_t from_ns) {
   return changed<PositionSample>(from_ns, [](PositionSample& sample) {
-    sample.latitude_deg += 2.0 / 111'320;
+    std::get<GeodeticPosition>(sample.position).latitude_deg += 2.0 / 111'320;
     return true;
   });
 }

@@ -23,6 +23,11 @@ struct RawMessage {
   std::int64_t receive_ns = 0;  ///< when the recorder got it; the time of types without a stamp
 };
 
+struct MessageHeader {
+  std::int64_t stamp_ns = 0;
+  std::string_view frame_id;  ///< valid as long as the message
+};
+
 /// Reads ROS 1's serialization (little endian, lengths as uint32) in place. Every length is checked against
 /// what is left before it is used: ROS's own reader allocates first, so that one flipped bit can ask for 4
 /// GB.
@@ -55,15 +60,14 @@ class ByteReader {
     return {reinterpret_cast<const char*>(take(length)), length};
   }
 
-  /// std_msgs/Header; @returns the stamp in ns.
-  std::int64_t read_header() {
+  /// std_msgs/Header.
+  MessageHeader read_header() {
     read<std::uint32_t>();  // seq
     const auto seconds = read<std::uint32_t>();
     const auto nanoseconds = read<std::uint32_t>();
-    read_string();  // frame_id
     if (nanoseconds >= kNanosecondsPerSecond)
       throw DecodeError("stamp with " + std::to_string(nanoseconds) + " ns");
-    return seconds * kNanosecondsPerSecond + nanoseconds;
+    return {seconds * kNanosecondsPerSecond + nanoseconds, read_string()};
   }
 
   std::size_t left() const { return left_; }

@@ -1,16 +1,25 @@
 #include "dataset/messages/decoders.hpp"
 
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/QuaternionStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/NavSatFix.h>
+#include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Float32.h>
 
 #include "dataset/messages/livox_custom_msg.hpp"
 
 namespace alight {
 namespace {
+
+/// tf2's message is tf's under another name; its headers come with a package that nothing else here needs.
+constexpr const char* kTfMd5 = "94810edda583a504dfda3829e70d7eec";
 
 template <class Message>
 Decoder row(LogRole role, DecodeFunction decode) {
@@ -27,12 +36,47 @@ const std::vector<Decoder>& decoders() {
       row<livox_ros_driver::CustomMsg>(LogRole::kLidar, decode_livox),
       {"livox_ros_driver2/CustomMsg", ros::message_traits::MD5Sum<livox_ros_driver::CustomMsg>::value(),
        LogRole::kLidar, decode_livox},
+      row<sensor_msgs::PointCloud2>(LogRole::kLidar, decode_point_cloud),
       row<geometry_msgs::QuaternionStamped>(LogRole::kAttitude, decode_quaternion),
       row<sensor_msgs::Imu>(LogRole::kAttitude, decode_imu_attitude),
+      row<geometry_msgs::PoseStamped>(LogRole::kAttitude, decode_pose_attitude),
+      row<nav_msgs::Odometry>(LogRole::kAttitude, decode_odometry_attitude),
+      row<geometry_msgs::TransformStamped>(LogRole::kAttitude, decode_transform_attitude),
+      {"tf2_msgs/TFMessage", kTfMd5, LogRole::kAttitude, decode_tf_attitude},
+      {"tf/tfMessage", kTfMd5, LogRole::kAttitude, decode_tf_attitude},
       row<sensor_msgs::NavSatFix>(LogRole::kPosition, decode_fix),
+      row<geometry_msgs::PointStamped>(LogRole::kPosition, decode_point),
+      row<geometry_msgs::PoseStamped>(LogRole::kPosition, decode_pose_position),
+      row<nav_msgs::Odometry>(LogRole::kPosition, decode_odometry_position),
+      row<geometry_msgs::TransformStamped>(LogRole::kPosition, decode_transform_position),
+      {"tf2_msgs/TFMessage", kTfMd5, LogRole::kPosition, decode_tf_position},
+      {"tf/tfMessage", kTfMd5, LogRole::kPosition, decode_tf_position},
       row<std_msgs::Float32>(LogRole::kHeight, decode_float_height),
+      row<sensor_msgs::CameraInfo>(LogRole::kCameraInfo, decode_camera_info),
   };
   return table;
+}
+
+const char* name(LogRole role) {
+  switch (role) {
+    case LogRole::kImage:
+      return "camera";
+    case LogRole::kLidar:
+      return "LiDAR";
+    case LogRole::kAttitude:
+      return "attitude";
+    case LogRole::kPosition:
+      return "position";
+    case LogRole::kHeight:
+      return "height";
+    case LogRole::kCameraInfo:
+      break;
+  }
+  return "intrinsics";
+}
+
+bool is_transform_tree(const Decoder& decoder) {
+  return decoder.decode == decode_tf_attitude || decoder.decode == decode_tf_position;
 }
 
 const Decoder* find_decoder(LogRole role, const std::string& type) {

@@ -9,26 +9,33 @@
 namespace alight {
 namespace {
 
-constexpr std::uint32_t kMaxSidePx = 16384;
 constexpr int kKeep = -1;
+constexpr int kHighByte = -2;  // of pairs of bytes, of which image rows need not be a multiple
 
 /// How one pixel encoding of sensor_msgs/image_encodings.h becomes grey or BGR.
 struct PixelEncoding {
   const char* name;
-  int channels;
+  int type;        ///< CV_8UC1 ..., of the bytes as they are
   int conversion;  ///< cv::ColorConversionCodes
+
+  std::uint32_t pixel_bytes() const { return static_cast<std::uint32_t>(CV_ELEM_SIZE(type)); }
 };
 
 /// OpenCV names a Bayer pattern by its second row's second and third pixel, ROS by the first two rows from
 /// the corner.
 constexpr PixelEncoding kEncodings[] = {
-    {"mono8", 1, kKeep},
-    {"bgr8", 3, kKeep},
-    {"rgb8", 3, cv::COLOR_RGB2BGR},
-    {"bayer_rggb8", 1, cv::COLOR_BayerBG2BGR},
-    {"bayer_bggr8", 1, cv::COLOR_BayerRG2BGR},
-    {"bayer_gbrg8", 1, cv::COLOR_BayerGR2BGR},
-    {"bayer_grbg8", 1, cv::COLOR_BayerGB2BGR},
+    {"mono8", CV_8UC1, kKeep},
+    {"mono16", CV_8UC2, kHighByte},
+    {"bgr8", CV_8UC3, kKeep},
+    {"rgb8", CV_8UC3, cv::COLOR_RGB2BGR},
+    {"bgra8", CV_8UC4, cv::COLOR_BGRA2BGR},
+    {"rgba8", CV_8UC4, cv::COLOR_RGBA2BGR},
+    {"bayer_rggb8", CV_8UC1, cv::COLOR_BayerBG2BGR},
+    {"bayer_bggr8", CV_8UC1, cv::COLOR_BayerRG2BGR},
+    {"bayer_gbrg8", CV_8UC1, cv::COLOR_BayerGR2BGR},
+    {"bayer_grbg8", CV_8UC1, cv::COLOR_BayerGB2BGR},
+    {"yuv422", CV_8UC2, cv::COLOR_YUV2BGR_UYVY},
+    {"yuv422_yuy2", CV_8UC2, cv::COLOR_YUV2BGR_YUYV},
 };
 
 const PixelEncoding& find_encoding(std::string_view name) {
@@ -38,6 +45,22 @@ const PixelEncoding& find_encoding(std::string_view name) {
     known += std::string(known.empty() ? "" : ", ") + encoding.name;
   }
   throw DecodeError("pixel encoding \"" + std::string(name.substr(0, 40)) + "\" is none of " + known);
+}
+
+/// Grey of 16 bits to 8: the more significant byte, wherever it is.
+cv::Mat high_bytes(const cv::Mat& pairs, bool big_endian) {
+  cv::Mat high;
+  cv::extractChannel(pairs, high, big_endian ? 0 : 1);
+  return high;
+}
+
+/// Pixels as they are in the message to a copy in grey or BGR.
+cv::Mat to_grey_or_bgr(const cv::Mat& raw, const PixelEncoding& encoding, bool big_endian) {
+  if (encoding.conversion == kHighByte) return high_bytes(raw, big_endian);
+  if (encoding.conversion == kKeep) return raw.clone();
+  cv::Mat image;
+  cv::cvtColor(raw, image, encoding.conversion);
+  return image;
 }
 
 bool starts_with(const std::uint8_t* data, std::size_t size, std::string_view magic) {
@@ -62,40 +85,39 @@ cv::Mat decode_picture(const std::uint8_t* data, std::size_t size) {
 
 }  // namespace
 
-std::optional<DecodedMessage> decode_image(const RawMessage& message, const DecodeOptions&) {
+std::optional<DecodedMessage> decode_image(const RawMessage& message, const DecodeOptions& options) {
   ByteReader reader(message);
   CameraImage out;
-  out.t_ns = reader.read_header();
+  out.t_ns = read_stamp(reader, message, options);
   const auto height = reader.read<std::uint32_t>();
   const auto width = reader.read<std::uint32_t>();
   const PixelEncoding& encoding = find_encoding(reader.read_string());
-  reader.read<std::uint8_t>();  // is_bigendian: one byte a channel has no order
+  const bool big_endian = reader.read<std::uint8_t>() != 0;
   const auto step = reader.read<std::uint32_t>();
   const auto size = reader.read<std::uint32_t>();
-  if (width == 0 || height == 0 || width > kMaxSidePx || height > kMaxSidePx) {
+  if (width == 0 || height == 0 || width > kMaxImageSide_px || height > kMaxImageSide_px) {
     throw DecodeError("image of " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
   }
-  if (step < width * static_cast<std::uint32_t>(encoding.channels) || size != std::uint64_t{step} * height) {
+  if (step < width * encoding.pixel_bytes() || size != std::uint64_t{step} * height) {
     throw DecodeError("image of " + std::to_string(size) + " bytes, but " + std::to_string(height) +
                       " rows of " + std::to_string(step) + " (" + std::to_string(width) + " pixels " +
                       encoding.name + ")");
   }
+  const bool yuv = encoding.type == CV_8UC2 && encoding.conversion != kHighByte;
+  if (yuv && width % 2 != 0) throw DecodeError("yuv422 of an odd width");
   const std::uint8_t* pixels = reader.take(size);
   reader.expect_end();
-  const cv::Mat raw(static_cast<int>(height), static_cast<int>(width), CV_8UC(encoding.channels),
+  const cv::Mat raw(static_cast<int>(height), static_cast<int>(width), encoding.type,
                     const_cast<std::uint8_t*>(pixels), step);
-  if (encoding.conversion == kKeep) {
-    out.image = raw.clone();
-  } else {
-    cv::cvtColor(raw, out.image, encoding.conversion);
-  }
+  out.image = to_grey_or_bgr(raw, encoding, big_endian);
   return out;
 }
 
-std::optional<DecodedMessage> decode_compressed_image(const RawMessage& message, const DecodeOptions&) {
+std::optional<DecodedMessage> decode_compressed_image(const RawMessage& message,
+                                                      const DecodeOptions& options) {
   ByteReader reader(message);
   CameraImage out;
-  out.t_ns = reader.read_header();
+  out.t_ns = read_stamp(reader, message, options);
   reader.read_string();  // format: drivers disagree on its spelling, the bytes themselves do not lie
   const auto size = reader.read<std::uint32_t>();
   const std::uint8_t* data = reader.take(size);
@@ -106,6 +128,7 @@ std::optional<DecodedMessage> decode_compressed_image(const RawMessage& message,
   if (jpeg && !jpeg_is_whole(data, size)) throw DecodeError("JPEG is cut off");
   out.image = decode_picture(data, size);
   if (out.image.empty()) throw DecodeError(std::string(jpeg ? "JPEG" : "PNG") + " is damaged");
+  if (out.image.type() == CV_8UC4) cv::cvtColor(out.image, out.image, cv::COLOR_BGRA2BGR);
   if (out.image.type() != CV_8UC1 && out.image.type() != CV_8UC3) {
     throw DecodeError("compressed image is neither 8-bit grey nor 8-bit colour");
   }

@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "geometry/camera.hpp"
+
 /// What a log or a live topic delivers once its ROS type is decoded. Times are on the IMU's clock (time
 /// shifts applied), int64 nanoseconds. The message types of ROS stop at the decoders: nothing behind them
 /// sees one.
@@ -48,11 +50,17 @@ struct AttitudeSample {
 };
 
 /// A satellite fix, WGS84.
-struct PositionSample {
-  std::int64_t t_ns = 0;
+struct GeodeticPosition {
   double latitude_deg = 0;
   double longitude_deg = 0;
   double altitude_m = 0;  ///< above the ellipsoid
+};
+
+/// Where the vehicle is: a satellite fix, or metres in the upright frame of an odometry, a tracker or a total station.
+/// WorldFrame makes either a position in `world`.
+struct PositionSample {
+  std::int64_t t_ns = 0;
+  std::variant<GeodeticPosition, Eigen::Vector3d> position;
 };
 
 /// Height above the take-off place.
@@ -61,8 +69,15 @@ struct HeightSample {
   double height_m = 0;
 };
 
+/// A lens as its driver describes it (not a measurement: no log message is made of it).
+struct CameraDescription {
+  std::int64_t t_ns = 0;
+  Camera camera;
+};
+
 /// What a decoder makes of one message.
-using DecodedMessage = std::variant<CameraImage, LidarPacket, AttitudeSample, PositionSample, HeightSample>;
+using DecodedMessage =
+    std::variant<CameraImage, LidarPacket, AttitudeSample, PositionSample, HeightSample, CameraDescription>;
 
 /// What a log delivers: as decoded, with the two eyes paired.
 using LogMessage = std::variant<StereoFrame, LidarPacket, AttitudeSample, PositionSample, HeightSample>;

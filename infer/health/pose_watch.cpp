@@ -60,9 +60,7 @@ bool PoseWatch::add(const AttitudeSample& sample) {
 }
 
 bool PoseWatch::add(const PositionSample& sample) {
-  if (!enu_) enu_ = std::make_shared<LocalEnu>(sample.latitude_deg, sample.longitude_deg, sample.altitude_m);
-  const Eigen::Vector3d p_world =
-      enu_->to_world(sample.latitude_deg, sample.longitude_deg, sample.altitude_m);
+  const Eigen::Vector3d p_world = world_.to_world(sample);
   if (!trajectory_.add_position(sample.t_ns, p_world)) return false;
   bool jump = false;
   bool same = false;

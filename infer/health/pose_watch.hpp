@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "dataset/messages/message_types.hpp"
-#include "geometry/geodesy.hpp"
+#include "dataset/world_frame.hpp"
 #include "geometry/trajectory.hpp"
 #include "infer/health/symptom.hpp"
 
@@ -52,8 +52,8 @@ class PoseWatch {
 
   HealthConfig config_;
   Trajectory trajectory_;
-  std::shared_ptr<const LocalEnu> enu_;  // shared by copies
-  std::deque<Place> places_;             // the last tenth of a second or two
+  WorldFrame world_;
+  std::deque<Place> places_;  // the last tenth of a second or two
   std::optional<AttitudeSample> attitude_;
   Repetition same_attitude_;
   Repetition same_position_;

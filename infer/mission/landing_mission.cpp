@@ -29,8 +29,7 @@ LandingMission::LandingMission(const MissionConfig& mission, const DepthEngineCo
 }
 
 void LandingMission::locate(std::int64_t now_ns, const PositionSample& sample) {
-  if (!enu_) enu_.emplace(sample.latitude_deg, sample.longitude_deg, sample.altitude_m);
-  p_world_ = enu_->to_world(sample.latitude_deg, sample.longitude_deg, sample.altitude_m);
+  p_world_ = world_.to_world(sample);
   machine_.set_position(now_ns, *p_world_);
 }
 

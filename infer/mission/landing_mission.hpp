@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/geodesy.hpp"
+#include "dataset/world_frame.hpp"
 #include "infer/landing_pipeline.hpp"
 #include "infer/mission/mission_machine.hpp"
 
@@ -42,7 +42,7 @@ class LandingMission {
   SiteSelector selector_;
   double full_window_s_;
   MissionMachine machine_;
-  std::optional<LocalEnu> enu_;
+  WorldFrame world_;
   std::optional<Eigen::Vector3d> p_world_;
   HealthReport health_;
   std::int64_t health_ns_ = 0;

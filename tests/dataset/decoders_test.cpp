@@ -2,70 +2,71 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "test_flight.hpp"
+#include "cloud_message.hpp"
+#include "decoding.hpp"
 
 namespace alight::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
-template <class Message>
-std::vector<std::uint8_t> bytes_of(const Message& message) {
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, message);
-  return bytes;
-}
-
-std::optional<DecodedMessage> decode(LogRole role, const std::string& type,
-                                     const std::vector<std::uint8_t>& bytes,
-                                     std::int64_t receive_ns = kStart_ns) {
-  return find_decoder(role, type)->decode({bytes.data(), bytes.size(), receive_ns}, DecodeOptions{});
-}
-
-template <class Out, class Message>
-Out decoded(LogRole role, const Message& message) {
-  const auto result = decode(role, ros::message_traits::DataType<Message>::value(), bytes_of(message));
-  return std::get<Out>(result.value());
-}
-
-template <class Message>
-std::string error(LogRole role, const Message& message) {
-  return message_of<DecodeError>(
-      [&] { decode(role, ros::message_traits::DataType<Message>::value(), bytes_of(message)); });
-}
-
 TEST(Decoders, EveryRowRefusesEveryCutOffMessageAndTrailingBytes) {
-  const std::vector<std::tuple<LogRole, std::string, std::vector<std::uint8_t>>> messages = {
+  sensor_msgs::Imu imu;
+  imu.orientation.w = 1;
+  geometry_msgs::PointStamped point;
+  std::vector<std::tuple<LogRole, std::string, std::vector<std::uint8_t>>> messages = {
       {LogRole::kImage, "sensor_msgs/Image", bytes_of(image_message(kStart_ns, 5, 3, "bgr8"))},
       {LogRole::kLidar, "livox_ros_driver/CustomMsg", bytes_of(livox_message(kStart_ns, 4))},
       {LogRole::kLidar, "livox_ros_driver2/CustomMsg", bytes_of(livox_message(kStart_ns, 4))},
       {LogRole::kAttitude, "geometry_msgs/QuaternionStamped", bytes_of(attitude_message(kStart_ns))},
       {LogRole::kPosition, "sensor_msgs/NavSatFix", bytes_of(fix_message(kStart_ns))},
       {LogRole::kHeight, "std_msgs/Float32", bytes_of(float_message(1))},
+      {LogRole::kLidar, "sensor_msgs/PointCloud2",
+       bytes_of(cloud_message(kStart_ns, velodyne_layout(), {{5, 0, 0, 1, 2, 0.05}, {6, 0, 0, 1, 2, 0.1}}))},
+      {LogRole::kAttitude, "sensor_msgs/Imu", bytes_of(imu)},
+      {LogRole::kPosition, "geometry_msgs/PointStamped", bytes_of(point)},
+      {LogRole::kCameraInfo, "sensor_msgs/CameraInfo", bytes_of(camera_info_message(kStart_ns))},
   };
+  for (const LogRole role : {LogRole::kAttitude, LogRole::kPosition}) {
+    messages.emplace_back(role, "geometry_msgs/PoseStamped", bytes_of(pose_message(kStart_ns)));
+    messages.emplace_back(role, "nav_msgs/Odometry", bytes_of(odometry_message(kStart_ns)));
+    messages.emplace_back(role, "geometry_msgs/TransformStamped", bytes_of(transform_message(kStart_ns)));
+    messages.emplace_back(role, "tf2_msgs/TFMessage", bytes_of(tf_message(kStart_ns)));
+    messages.emplace_back(role, "tf/tfMessage", bytes_of(tf_message(kStart_ns)));
+  }
+  DecodeOptions options;
+  options.frames = {"world", "body"};
+  std::set<std::pair<LogRole, std::string>> covered;
   for (const auto& [role, type, bytes] : messages) {
-    EXPECT_NO_THROW(decode(role, type, bytes)) << type;
+    covered.insert({role, type});
+    EXPECT_TRUE(decode(role, type, bytes, kStart_ns, options).has_value()) << type;
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-      EXPECT_THROW(decode(role, type, {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}),
-                   DecodeError)
-          << type << " " << size;
+      const std::vector<std::uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+      EXPECT_THROW(decode(role, type, cut, kStart_ns, options), DecodeError) << type << " " << size;
     }
     std::vector<std::uint8_t> longer = bytes;
     longer.push_back(0);
-    EXPECT_THROW(decode(role, type, longer), DecodeError) << type;
+    EXPECT_THROW(decode(role, type, longer, kStart_ns, options), DecodeError) << type;
+  }
+  for (const Decoder& decoder : decoders()) {
+    const bool picture = decoder.type == "sensor_msgs/CompressedImage";  // cut off in its own test
+    EXPECT_TRUE(picture || covered.count({decoder.role, decoder.type}) != 0) << decoder.type;
   }
 }
 
 TEST(Decoders, AMessageTypeIsFoundOnlyForItsRole) {
   EXPECT_EQ(find_decoder(LogRole::kLidar, "sensor_msgs/Image"), nullptr);
-  EXPECT_EQ(accepted_types(LogRole::kAttitude), "geometry_msgs/QuaternionStamped, sensor_msgs/Imu");
+  EXPECT_EQ(
+      accepted_types(LogRole::kPosition),
+      "sensor_msgs/NavSatFix, geometry_msgs/PointStamped, geometry_msgs/PoseStamped, nav_msgs/Odometry, "
+      "geometry_msgs/TransformStamped, tf2_msgs/TFMessage, tf/tfMessage");
 }
 
 TEST(ImageDecoder, ColourBecomesBgr) {
@@ -86,6 +87,42 @@ TEST(ImageDecoder, RowsMayBePadded) {
   ASSERT_EQ(image.type(), CV_8UC1);
   EXPECT_EQ(image.at<std::uint8_t>(0, 1), 2);
   EXPECT_EQ(image.at<std::uint8_t>(1, 0), 3);
+}
+
+TEST(ImageDecoder, AlphaIsDroppedAndChannelsAreSorted) {
+  sensor_msgs::Image message = image_message(kStart_ns, 1, 1, "rgba8");
+  message.step = 4;
+  message.data = {10, 20, 30, 99};
+  EXPECT_EQ(decoded<CameraImage>(LogRole::kImage, message).image.at<cv::Vec3b>(0, 0), cv::Vec3b(30, 20, 10));
+  message.encoding = "bgra8";
+  EXPECT_EQ(decoded<CameraImage>(LogRole::kImage, message).image.at<cv::Vec3b>(0, 0), cv::Vec3b(10, 20, 30));
+}
+
+TEST(ImageDecoder, SixteenBitGreyKeepsTheHighByteOfEitherByteOrder) {
+  sensor_msgs::Image message = image_message(kStart_ns, 2, 1, "mono16");
+  message.step = 5;  // padded to an odd step
+  message.data = {0x34, 0x12, 0xFF, 0xFF, 0x77};
+  const cv::Mat little = decoded<CameraImage>(LogRole::kImage, message).image;
+  ASSERT_EQ(little.type(), CV_8UC1);
+  EXPECT_EQ(little.at<std::uint8_t>(0, 0), 0x12);
+  EXPECT_EQ(little.at<std::uint8_t>(0, 1), 0xFF);
+  message.is_bigendian = 1;
+  EXPECT_EQ(decoded<CameraImage>(LogRole::kImage, message).image.at<std::uint8_t>(0, 0), 0x34);
+}
+
+/// White and black in video range (16 .. 235).
+TEST(ImageDecoder, YuvPairsShareTheirColour) {
+  sensor_msgs::Image message = image_message(kStart_ns, 2, 1, "yuv422");
+  message.step = 4;
+  message.data = {128, 235, 128, 16};  // u y v y
+  const cv::Mat uyvy = decoded<CameraImage>(LogRole::kImage, message).image;
+  EXPECT_EQ(uyvy.at<cv::Vec3b>(0, 0), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(uyvy.at<cv::Vec3b>(0, 1), cv::Vec3b(0, 0, 0));
+  message.encoding = "yuv422_yuy2";
+  message.data = {235, 128, 16, 128};
+  EXPECT_EQ(cv::norm(decoded<CameraImage>(LogRole::kImage, message).image, uyvy, cv::NORM_INF), 0);
+  message.width = 1;
+  EXPECT_THAT(error(LogRole::kImage, message), HasSubstr("odd width"));
 }
 
 /// A flat red scene seen through each pattern: only the pixels under a red filter are bright.
@@ -222,9 +259,10 @@ TEST(ImuDecoder, GivesItsOrientation) {
 TEST(FixDecoder, GivesThePositionUnlessThereIsNoFix) {
   sensor_msgs::NavSatFix message = fix_message(kStart_ns);
   const auto sample = decoded<PositionSample>(LogRole::kPosition, message);
-  EXPECT_DOUBLE_EQ(sample.latitude_deg, message.latitude);
-  EXPECT_DOUBLE_EQ(sample.longitude_deg, message.longitude);
-  EXPECT_DOUBLE_EQ(sample.altitude_m, message.altitude);
+  const auto& fix = std::get<GeodeticPosition>(sample.position);
+  EXPECT_EQ(fix.latitude_deg, message.latitude);
+  EXPECT_EQ(fix.longitude_deg, message.longitude);
+  EXPECT_EQ(fix.altitude_m, message.altitude);
   message.status.status = sensor_msgs::NavSatStatus::STATUS_NO_FIX;
   EXPECT_FALSE(decode(LogRole::kPosition, "sensor_msgs/NavSatFix", bytes_of(message)).has_value());
   message.status.status = 0;
@@ -240,6 +278,22 @@ TEST(HeightDecoder, TakesTheReceiveTime) {
   EXPECT_EQ(sample.t_ns, 42);
   EXPECT_EQ(sample.height_m, 12.5);
   EXPECT_NE(error(LogRole::kHeight, float_message(std::numeric_limits<float>::quiet_NaN())), "");
+}
+
+TEST(Stamps, TheReceiveTimeCountsWhereTheConfigurationSaysSo) {
+  DecodeOptions options;
+  options.stamp = StampSource::kReceive;
+  const std::int64_t receive_ns = kStart_ns + 5'000'000;
+  EXPECT_EQ(
+      decoded<AttitudeSample>(LogRole::kAttitude, attitude_message(kStart_ns), options, receive_ns).t_ns,
+      receive_ns);
+  EXPECT_EQ(
+      decoded<PositionSample>(LogRole::kPosition, odometry_message(kStart_ns), options, receive_ns).t_ns,
+      receive_ns);
+  EXPECT_EQ(decoded<CameraImage>(LogRole::kImage, image_message(7, 4, 4, "mono8"), options, receive_ns).t_ns,
+            receive_ns);
+  const auto packet = decoded<LidarPacket>(LogRole::kLidar, livox_message(12'345, 3), options, receive_ns);
+  EXPECT_EQ(packet.returns[1].t_ns, receive_ns + livox_message(0, 3).points[1].offset_time);
 }
 
 TEST(HeaderReading, RefusesAStampWithTooManyNanoseconds) {

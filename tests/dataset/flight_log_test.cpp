@@ -211,5 +211,44 @@ TEST(LogConfig, ReadsBackWhatItPrints) {
   EXPECT_THROW(parse_config<LogConfig>("min_range_m: 5\nmax_range_m: 4\n", "text"), ConfigError);
 }
 
+TEST_F(FlightLogTest, OfImagesOnlyEveryNthIsDecoded) {
+  FlightLog every(bag(), small_rig(), {});
+  FlightLog fourth(bag(), small_rig(), {});
+  fourth.keep_every_nth_image(4);
+  const auto all = all_of<StereoFrame>(read_all(every));
+  const auto kept = all_of<StereoFrame>(read_all(fourth));
+  ASSERT_EQ(kept.size(), (all.size() + 3) / 4);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    EXPECT_EQ(kept[i].t_ns, all[4 * i].t_ns);
+    EXPECT_EQ(cv::norm(kept[i].left, all[4 * i].left, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(kept[i].right, all[4 * i].right, cv::NORM_INF), 0);
+  }
+  EXPECT_EQ(fourth.summary().dropped.at("images left out by every_nth_image"),
+            static_cast<std::int64_t>(all.size() - kept.size()));
+}
+
+TEST_F(FlightLogTest, StampsThatJumpAreLeftOutAndCounted) {
+  FlightOptions options;
+  options.left_out = {"/dji_sdk/attitude", "/livox/lidar"};
+  const std::int64_t second_ns = 1'000'000'000;
+  FlightLog log(
+      bag_with(options,
+               [&](rosbag::Bag& file) {
+                 for (int i = 0; i < 300; ++i) {
+                   const std::int64_t t_ns = kStart_ns + i * second_ns / 100;
+                   const std::int64_t stamp_ns = i == 100 ? t_ns + 3600 * second_ns : t_ns;  // once wrong
+                   file.write("/dji_sdk/attitude", ros_time(t_ns), attitude_message(stamp_ns));
+                   if (i % 10 == 5)
+                     file.write("/livox/lidar", ros_time(t_ns), livox_message(i == 105 ? 0 : t_ns, 50));
+                 }
+               }),
+      small_rig(), {});
+  const auto messages = read_all(log);
+  EXPECT_EQ(all_of<AttitudeSample>(messages).size(), 299u);
+  EXPECT_EQ(all_of<LidarPacket>(messages).size(), 29u);
+  EXPECT_EQ(log.summary().dropped.at("attitude messages whose stamp jumps"), 1);
+  EXPECT_EQ(log.summary().dropped.at("LiDAR messages whose stamp jumps"), 1);
+}
+
 }  // namespace
 }  // namespace alight::testing

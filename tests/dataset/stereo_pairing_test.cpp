@@ -5,18 +5,19 @@
 namespace alight {
 namespace {
 
-CameraImage image_at(std::int64_t t_ns) {
-  return {t_ns, cv::Mat(1, 1, CV_8UC1, cv::Scalar(static_cast<double>(t_ns % 256)))};
+UndecodedImage image_at(std::int64_t t_ns) {
+  return {t_ns, nullptr, {static_cast<std::uint8_t>(t_ns % 256)}, 0};
 }
 
-TEST(StereoPairer, PairsWithinTheToleranceAndKeepsTheLeftTime) {
+TEST(StereoPairer, PairsWithinTheTolerance) {
   StereoPairer pairer(10);
   EXPECT_FALSE(pairer.add_left(image_at(100)));
-  const auto frame = pairer.add_right(image_at(110));
-  ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->t_ns, 100);
-  EXPECT_EQ(frame->left.at<std::uint8_t>(0, 0), 100);
-  EXPECT_EQ(frame->right.at<std::uint8_t>(0, 0), 110);
+  const auto pair = pairer.add_right(image_at(110));
+  ASSERT_TRUE(pair);
+  EXPECT_EQ(pair->first.t_ns, 100);
+  EXPECT_EQ(pair->first.bytes.at(0), 100);
+  EXPECT_EQ(pair->second.t_ns, 110);
+  EXPECT_EQ(pair->second.bytes.at(0), 110);
   EXPECT_EQ(pairer.unpaired(), 0);
 }
 

@@ -118,6 +118,58 @@ std_msgs::Float32 float_message(float value) {
   return message;
 }
 
+geometry_msgs::PoseStamped pose_message(std::int64_t t_ns) {
+  geometry_msgs::PoseStamped message;
+  message.header = header_at(t_ns);
+  message.header.frame_id = "world";
+  message.pose.position.x = 1;
+  message.pose.position.y = 2;
+  message.pose.position.z = 3;
+  message.pose.orientation.w = message.pose.orientation.z = std::sqrt(0.5);
+  return message;
+}
+
+nav_msgs::Odometry odometry_message(std::int64_t t_ns) {
+  const geometry_msgs::PoseStamped pose = pose_message(t_ns);
+  nav_msgs::Odometry message;
+  message.header = pose.header;
+  message.child_frame_id = "body";
+  message.pose.pose = pose.pose;
+  return message;
+}
+
+geometry_msgs::TransformStamped transform_message(std::int64_t t_ns) {
+  const geometry_msgs::PoseStamped pose = pose_message(t_ns);
+  geometry_msgs::TransformStamped message;
+  message.header = pose.header;
+  message.child_frame_id = "body";
+  message.transform.translation.x = pose.pose.position.x;
+  message.transform.translation.y = pose.pose.position.y;
+  message.transform.translation.z = pose.pose.position.z;
+  message.transform.rotation = pose.pose.orientation;
+  return message;
+}
+
+tf2_msgs::TFMessage tf_message(std::int64_t t_ns) {
+  geometry_msgs::TransformStamped other = transform_message(t_ns);
+  other.child_frame_id = "lidar";
+  other.transform.translation.x = 7;
+  tf2_msgs::TFMessage message;
+  message.transforms = {other, transform_message(t_ns), other};
+  return message;
+}
+
+sensor_msgs::CameraInfo camera_info_message(std::int64_t t_ns) {
+  sensor_msgs::CameraInfo message;
+  message.header = header_at(t_ns);
+  message.width = 64;
+  message.height = 48;
+  message.distortion_model = "plumb_bob";
+  message.D = {0.1, -0.02, 0.003, -0.004, 0.005};
+  message.K = {44, 0, 31.5, 0, 45, 23.5, 0, 0, 1};
+  return message;
+}
+
 namespace {
 
 sensor_msgs::CompressedImage compress(const sensor_msgs::Image& image) {

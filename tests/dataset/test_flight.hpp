@@ -7,13 +7,19 @@
 #include <utility>
 #include <vector>
 
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/QuaternionStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/NavSatFix.h>
 #include <std_msgs/Float32.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include "dataset/flight_log.hpp"
 #include "dataset/messages/livox_custom_msg.hpp"
@@ -61,6 +67,14 @@ geometry_msgs::QuaternionStamped attitude_message(std::int64_t t_ns);
 sensor_msgs::NavSatFix fix_message(std::int64_t t_ns,
                                    const Eigen::Vector3d& p_world = Eigen::Vector3d::Zero());
 std_msgs::Float32 float_message(float value);
+/// Turned by 90 deg to the left at (1, 2, 3); of `body` in `world`.
+geometry_msgs::PoseStamped pose_message(std::int64_t t_ns);
+nav_msgs::Odometry odometry_message(std::int64_t t_ns);
+geometry_msgs::TransformStamped transform_message(std::int64_t t_ns);
+/// Between two others of other frames.
+tf2_msgs::TFMessage tf_message(std::int64_t t_ns);
+/// 64x48 pixels with plumb_bob distortion.
+sensor_msgs::CameraInfo camera_info_message(std::int64_t t_ns);
 
 /// What a test may change of the flight that write_flight writes.
 struct FlightOptions {

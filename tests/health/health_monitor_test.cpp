@@ -127,7 +127,7 @@ TEST(HealthMonitor, ALeapOfThePositionSpoilsTheLidarBeforeIt) {
   for (const LogMessage& message : flight()) monitor.add(message);
   EXPECT_FALSE(monitor.take_lidar_spoiled());
   PositionSample leap = fakes::position_at(kStart_ns + to_nanoseconds(2.02));
-  leap.altitude_m += 3;
+  std::get<GeodeticPosition>(leap.position).altitude_m += 3;
   monitor.add(leap);
   EXPECT_TRUE(monitor.take_lidar_spoiled());
   EXPECT_FALSE(monitor.take_lidar_spoiled());

@@ -12,7 +12,7 @@ namespace {
 constexpr double kMetresOfADegree = 111'320;  // of latitude
 
 PositionSample position(double t_s, double north_m) {
-  return {to_nanoseconds(t_s), north_m / kMetresOfADegree, 114.2, 50};
+  return {to_nanoseconds(t_s), GeodeticPosition{north_m / kMetresOfADegree, 114.2, 50}};
 }
 
 AttitudeSample attitude(double t_s, double yaw_deg) {

@@ -51,9 +51,10 @@ class BagWriter {
   void operator()(const PositionSample& sample) {
     sensor_msgs::NavSatFix message;
     message.header.stamp.fromNSec(static_cast<std::uint64_t>(sample.t_ns));
-    message.latitude = sample.latitude_deg;
-    message.longitude = sample.longitude_deg;
-    message.altitude = sample.altitude_m;
+    const auto& fix = std::get<GeodeticPosition>(sample.position);
+    message.latitude = fix.latitude_deg;
+    message.longitude = fix.longitude_deg;
+    message.altitude = fix.altitude_m;
     write("/dji_sdk/gps_position", sample.t_ns, message);
   }
   void operator()(const HeightSample&) {}

@@ -94,7 +94,7 @@ class LevelWorld {
 };
 
 inline AttitudeSample attitude_at(std::int64_t t_ns) { return {t_ns, Eigen::Quaterniond::Identity()}; }
-inline PositionSample position_at(std::int64_t t_ns) { return {t_ns, 22.3, 114.2, 50}; }
+inline PositionSample position_at(std::int64_t t_ns) { return {t_ns, GeodeticPosition{22.3, 114.2, 50}}; }
 
 /// What flows in a hovering flight.
 struct FlightPlan {

@@ -118,7 +118,8 @@ TEST(LandingPipeline, AFailedHealthVetoesTheSiteAndSaysSo) {
   const std::int64_t jump_ns = kStart_ns + to_nanoseconds(1.5);
   for (LogMessage& message : messages) {
     auto* sample = std::get_if<PositionSample>(&message);
-    if (sample != nullptr && sample->t_ns >= jump_ns) sample->altitude_m += 5;
+    if (sample != nullptr && sample->t_ns >= jump_ns)
+      std::get<GeodeticPosition>(sample->position).altitude_m += 5;
   }
   const auto frames = fly(messages, std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
   int vetoed = 0;

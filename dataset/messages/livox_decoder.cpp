@@ -1,24 +1,16 @@
-#include <cmath>
+#include <algorithm>
 
 #include "dataset/messages/decoders.hpp"
+#include "dataset/messages/lidar_returns.hpp"
 #include "dataset/messages/livox_custom_msg.hpp"
+#include "dataset/messages/point_times.hpp"
 
 namespace alight {
-namespace {
-
-/// "No return" is (0, 0, 0): nearer than any limit.
-bool is_echo(const Eigen::Vector3f& p_lidar, const DecodeOptions& options) {
-  const double range_m = p_lidar.cast<double>().norm();
-  return std::isfinite(range_m) && range_m > 0 && range_m >= options.min_range_m &&
-         range_m <= options.max_range_m;
-}
-
-}  // namespace
 
 std::optional<DecodedMessage> decode_livox(const RawMessage& message, const DecodeOptions& options) {
   ByteReader reader(message);
   LidarPacket out;
-  out.t_ns = reader.read_header();
+  out.t_ns = read_stamp(reader, message, options);
   reader.read<std::uint64_t>();  // timebase
   const auto point_num = reader.read<std::uint32_t>();
   reader.take(4);  // lidar_id, rsvd
@@ -32,14 +24,19 @@ std::optional<DecodedMessage> decode_livox(const RawMessage& message, const Deco
                       " bytes of points there");
   }
   out.returns.reserve(count);
+  std::int64_t longest_ns = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     LidarReturn point;
-    point.t_ns = out.t_ns + reader.read<std::uint32_t>();
+    const std::int64_t offset_ns = reader.read<std::uint32_t>();
+    point.t_ns = out.t_ns + offset_ns;
     for (int axis = 0; axis < 3; ++axis) point.p_lidar[axis] = reader.read<float>();
-    point.reflectivity = reader.read<std::uint8_t>();
+    point.reflectivity = scaled_reflectivity(reader.read<std::uint8_t>(), options.reflectivity_scale);
     reader.take(2);  // tag, line
+    longest_ns = std::max(longest_ns, offset_ns);
     if (is_echo(point.p_lidar, options)) out.returns.push_back(point);
   }
+  const std::int64_t begin_ns = scan_begin_ns(out.t_ns, options.points, longest_ns);
+  for (LidarReturn& point : out.returns) point.t_ns += begin_ns - out.t_ns;
   out.dropped = static_cast<std::int64_t>(count) - static_cast<std::int64_t>(out.returns.size());
   return out;
 }

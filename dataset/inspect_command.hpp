@@ -1,0 +1,10 @@
+#pragma once
+
+#include <filesystem>
+
+namespace alight {
+
+/// `alight-dataset inspect`: what a bag holds, to stdout. @returns the exit code. @throws DataError
+int run_inspect(const std::filesystem::path& bag);
+
+}  // namespace alight
