@@ -32,10 +32,12 @@ double seconds_of(const std::function<void()>& body) {
 }
 
 /// Every sample of a log, as alight-dataset build makes it, handed to `take` instead of being encoded.
+/// @param with_images false: depth maps alone
 void build_samples(const alight::DatasetConfig& config, const alight::Rig& rig, const fs::path& log,
-                   const std::function<void(BuiltSample)>& take) {
+                   bool with_images, const std::function<void(BuiltSample)>& take) {
   alight::FlightLog messages(log, rig, config.log);
   messages.keep_every_nth_image(config.depth_map.every_nth_image);
+  if (!with_images) messages.put_off_decoding();
   alight::DepthMapBuilder builder(rig, config.depth_map);
   const auto take_ready = [&] {
     while (auto sample = builder.next()) take(std::move(*sample));
@@ -121,11 +123,11 @@ int main(int argc, char** argv) {
     const auto config = alight::load<alight::DatasetConfig>(options);
     const alight::Rig rig = alight::load_rig(alight::find_rig_file(config.rig, options.file));
     std::vector<BuiltSample> samples;
-    build_samples(config, rig, log, [&](BuiltSample sample) { samples.push_back(std::move(sample)); });
+    build_samples(config, rig, log, true, [&](BuiltSample sample) { samples.push_back(std::move(sample)); });
     if (samples.empty()) throw alight::DataError(log + ": gives no sample");
     int maps = 0;
     const double maps_s =
-        seconds_of([&] { build_samples(config, rig, log, [&](const BuiltSample&) { ++maps; }); });
+        seconds_of([&] { build_samples(config, rig, log, false, [&](const BuiltSample&) { ++maps; }); });
     const double codec_s = codec_seconds(config, rig, log, samples, work);
     std::printf("{\"maps\": %d, \"maps_seconds\": %.4f, \"codec_seconds\": %.4f}\n", maps, maps_s, codec_s);
     return alight::kExitOk;

@@ -49,6 +49,10 @@ foreach(library rosbag_storage roscpp_serialization rostime cpp_common class_loa
 endforeach()
 alight_imported(rosbag INCLUDES ${ROSBAG_INCLUDES} LIBRARIES ${ROSBAG_LIBRARIES})
 
+find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h REQUIRED)
+find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)
+alight_imported(turbojpeg INCLUDES ${TURBOJPEG_INCLUDE_DIR} LIBRARIES ${TURBOJPEG_LIBRARY})
+
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 alight_imported(xxhash INCLUDES ${XXHASH_INCLUDE_DIR} LIBRARIES ${XXHASH_LIBRARY})

@@ -47,10 +47,11 @@ AlignedPoints align_points(const std::vector<LidarReturn>& returns, const Trajec
   aligned.points.reserve(returns.size());
   std::optional<std::int64_t> pose_ns;  // points of a driver without point times share one pose
   std::optional<Eigen::Isometry3d> T_world_lidar;
+  Trajectory::Cursor cursor(trajectory);
   for (const LidarReturn& point : returns) {
     if (pose_ns != point.t_ns) {
       pose_ns = point.t_ns;
-      T_world_lidar = trajectory.T_world_imu(point.t_ns);
+      T_world_lidar = cursor.T_world_imu(point.t_ns);
       if (T_world_lidar) T_world_lidar = *T_world_lidar * T_imu_lidar;
     }
     if (!T_world_lidar) {

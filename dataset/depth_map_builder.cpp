@@ -98,9 +98,9 @@ void DepthMapBuilder::add_packet(LidarPacket packet) {
 std::optional<BuiltSample> DepthMapBuilder::next() {
   place_packets();
   while (!frames_.empty() && frame_is_ready(frames_.front().t_ns)) {
-    const StereoFrame frame = std::move(frames_.front());
+    StereoFrame frame = std::move(frames_.front());
     frames_.pop_front();
-    if (auto sample = build(frame)) return sample;
+    if (auto sample = build(std::move(frame))) return sample;
   }
   forget();
   return std::nullopt;
@@ -134,7 +134,7 @@ bool DepthMapBuilder::frame_is_ready(std::int64_t t_ns) const {
   return poses_end_ns >= t_ns && placed_until_ns_ >= t_ns + after_ns_;
 }
 
-std::optional<BuiltSample> DepthMapBuilder::build(const StereoFrame& frame) {
+std::optional<BuiltSample> DepthMapBuilder::build(StereoFrame frame) {
   const auto T_world_imu = trajectory_.trajectory().T_world_imu(frame.t_ns);
   if (!T_world_imu) {
     ++dropped_["images without a pose"];
@@ -153,10 +153,18 @@ std::optional<BuiltSample> DepthMapBuilder::build(const StereoFrame& frame) {
     ++dropped_["images with too few depth pixels"];
     return std::nullopt;
   }
+  sample.height_m = heights_.at(frame.t_ns);
+  if (frame.undecoded) {
+    sample.frame = std::move(frame);
+  } else {
+    add_images(sample, frame);
+  }
+  return sample;
+}
+
+void DepthMapBuilder::add_images(BuiltSample& sample, const StereoFrame& frame) const {
   sample.left = rectifier_.rectify_left(frame.left)(crop_).clone();
   if (!frame.right.empty()) sample.right = rectifier_.rectify_right(frame.right)(crop_).clone();
-  sample.height_m = heights_.at(frame.t_ns);
-  return sample;
 }
 
 /// What no coming image or packet can ask for any more.

@@ -35,7 +35,8 @@ void bind(Binder& b, DepthMapConfig& c);
 struct BuiltSample {
   std::int64_t t_ns = 0;
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-  cv::Mat left;  ///< rectified and cropped
+  StereoFrame frame;  ///< as it came, where its decoding was put off
+  cv::Mat left;       ///< rectified and cropped; empty where decoding was put off, until add_images
   cv::Mat right;
   SparseDepth sparse;
   int points = 0;  ///< LiDAR points that fell into the image
@@ -63,6 +64,9 @@ class DepthMapBuilder {
   /// The next sample in time order that is ready; empty if none is.
   std::optional<BuiltSample> next();
 
+  /// Rectifies and crops the images of a frame that was decoded later. Safe on any thread, while others add and take.
+  void add_images(BuiltSample& sample, const StereoFrame& frame) const;
+
   /// What was left out so far: reason -> count.
   const std::map<std::string, std::int64_t>& dropped() const { return dropped_; }
 
@@ -71,7 +75,7 @@ class DepthMapBuilder {
   void add_packet(LidarPacket packet);
   void place_packets();
   bool frame_is_ready(std::int64_t t_ns) const;
-  std::optional<BuiltSample> build(const StereoFrame& frame);
+  std::optional<BuiltSample> build(StereoFrame frame);
   void forget();
   void tick(std::int64_t t_ns) { clock_ns_ = std::max(clock_ns_, t_ns); }
 

@@ -1,6 +1,8 @@
 #include "dataset/flight_build.hpp"
 
+#include <map>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include <opencv2/imgcodecs.hpp>
@@ -71,6 +73,7 @@ class FlightBuild {
         log_(log, rig, config.log),
         builder_(rig, config.depth_map, point_pose) {
     log_.keep_every_nth_image(config.depth_map.every_nth_image);
+    log_.put_off_decoding();  // the workers do it
     dense_folder_ = usable_dense_folder(log, builder_);
     flight_.name = flight_name(log);
     flight_.has_right = rig.cam1.has_value();
@@ -98,20 +101,62 @@ class FlightBuild {
       const int index = static_cast<int>(rows_.size());
       rows_.push_back({index, built->t_ns, built->T_world_camera, -1, -1, built->points,
                        built->sparse.count(), built->height_m});
-      const std::int64_t stamp_ns = built->t_ns - to_nanoseconds(rig_.cam0.timeshift_cam_imu_s);
-      auto sample = std::make_shared<Sample>(Sample{built->left, built->right, built->sparse, {}});
-      writer.add([this, sample, index, stamp_ns] {
-        if (flight_.has_dense) sample->dense_m = read_dense(dense_folder_, stamp_ns, builder_.crop_rect());
-        write_sample(dir_, flight_, index, *sample, config_.png_compression);
+      writer.add([this, index, sample = std::make_shared<BuiltSample>(std::move(*built))] {
+        store(index, *sample);
       });
     }
   }
 
+  /// On a worker's thread.
+  void store(int index, BuiltSample& built) {
+    try {
+      log_.decode(built.frame);
+    } catch (const DecodeError& e) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      undecodable_.emplace(index, e.what());
+      return;
+    }
+    builder_.add_images(built, built.frame);
+    Sample sample{built.left, built.right, built.sparse, {}};
+    const std::int64_t stamp_ns = built.t_ns - to_nanoseconds(rig_.cam0.timeshift_cam_imu_s);
+    if (flight_.has_dense) sample.dense_m = read_dense(dense_folder_, stamp_ns, builder_.crop_rect());
+    write_sample(dir_, flight_, index, sample, config_.png_compression);
+  }
+
+  /// The rows of samples whose images did not decode go, and the pictures of later ones move up.
+  void drop_undecodable() {
+    if (undecodable_.empty()) return;
+    const auto& [first, reason] = *undecodable_.begin();
+    const double after_s = to_seconds(rows_[static_cast<std::size_t>(first)].t_ns - rows_.front().t_ns);
+    spdlog::warn(
+        "{}: {} of {} images do not decode and are left out, the first {:.3f} s after the first sample: {}",
+        path_.string(), undecodable_.size(), rows_.size(), after_s, reason);
+    if (static_cast<double>(undecodable_.size()) >
+        config_.log.max_bad_message_share * static_cast<double>(rows_.size())) {
+      throw DataError(path_.string() + ": " + std::to_string(undecodable_.size()) + " of " +
+                      std::to_string(rows_.size()) +
+                      " images do not decode (log.max_bad_message_share allows " +
+                      std::to_string(config_.log.max_bad_message_share) + "), the first: " + reason);
+    }
+    std::vector<SampleRow> kept;
+    for (SampleRow row : rows_) {
+      if (undecodable_.count(row.index) != 0) continue;
+      const int index = static_cast<int>(kept.size());
+      if (row.index != index) move_sample(dir_, flight_, row.index, index);
+      row.index = index;
+      kept.push_back(row);
+    }
+    rows_ = std::move(kept);
+  }
+
   FlightEntry close() {
+    drop_undecodable();
     FlightEntry entry = flight_;
     entry.samples = static_cast<int>(rows_.size());
     entry.dropped = log_.summary().dropped;
     for (const auto& [reason, count] : builder_.dropped()) entry.dropped[reason] += count;
+    if (!undecodable_.empty())
+      entry.dropped["images that do not decode"] = static_cast<std::int64_t>(undecodable_.size());
     if (rows_.empty()) {
       throw DataError(path_.string() + ": gives no sample; left out were " + describe(entry.dropped) +
                       "; check the topics, the clocks and max_pose_gap_s");
@@ -130,6 +175,8 @@ class FlightBuild {
   fs::path dense_folder_;
   FlightEntry flight_;
   std::vector<SampleRow> rows_;
+  std::mutex mutex_;
+  std::map<int, std::string> undecodable_;  // samples whose images do not decode, and why; under mutex_
 };
 
 }  // namespace

@@ -177,6 +177,8 @@ bool FlightLog::next(LogMessage& out) {
 }
 
 void FlightLog::keep_every_nth_image(int n) { impl_->assembler.keep_every_nth_image(n); }
+void FlightLog::put_off_decoding() { impl_->assembler.put_off_decoding(); }
+void FlightLog::decode(StereoFrame& frame) const { impl_->assembler.decode(frame); }
 std::int64_t FlightLog::receive_ns() const { return impl_->receive_ns; }
 std::int64_t FlightLog::consumed() const { return impl_->consumed; }
 const LogSummary& FlightLog::summary() const { return impl_->summary; }

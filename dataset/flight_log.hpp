@@ -40,6 +40,10 @@ class FlightLog {
 
   /// Only every n-th frame is decoded and handed on, the others are counted as dropped.
   void keep_every_nth_image(int n);
+  /// From now on frames come undecoded: whoever takes them calls `decode`, on whatever thread.
+  void put_off_decoding();
+  /// Fills the images of a frame whose decoding was put off. @throws DecodeError
+  void decode(StereoFrame& frame) const;
 
   /// The next message; false at the end. Messages that do not decode are counted, logged with their place,
   /// skipped.

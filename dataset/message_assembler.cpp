@@ -73,24 +73,30 @@ void MessageAssembler::add_image(Sensor sensor, const Decoder& decoder, const Ra
   UndecodedImage image{
       read_stamp(reader, raw, options_of(sensor)), &decoder, {raw.data, raw.data + raw.size}, raw.receive_ns};
   if (!stamp_is_usable(sensor, image.t_ns, raw.receive_ns)) return;
-  if (!rig_.cam1) return accept_frame(image, nullptr);
+  if (!rig_.cam1) return accept_frame({std::move(image), std::nullopt});
   if (sensor == Sensor::kRight) image.t_ns -= to_nanoseconds(config_.right_stamp_lead_s);
-  const auto pair =
+  auto pair =
       sensor == Sensor::kLeft ? pairer_.add_left(std::move(image)) : pairer_.add_right(std::move(image));
-  if (pair) accept_frame(pair->first, &pair->second);
+  if (pair) accept_frame({std::move(pair->first), std::move(pair->second)});
 }
 
 /// The frame's time is the left eye's.
-void MessageAssembler::accept_frame(const UndecodedImage& left, const UndecodedImage* right) {
+void MessageAssembler::accept_frame(UndecodedFrame undecoded) {
   if (frames_seen_++ % every_nth_image_ != 0) {
     ++dropped_["images left out by every_nth_image"];
     return;
   }
   StereoFrame frame;
-  frame.t_ns = left.t_ns + to_nanoseconds(rig_.cam0.timeshift_cam_imu_s);
-  frame.left = decode(Sensor::kLeft, left);
-  if (right != nullptr) frame.right = decode(Sensor::kRight, *right);
+  frame.t_ns = undecoded.left.t_ns + to_nanoseconds(rig_.cam0.timeshift_cam_imu_s);
+  frame.undecoded = std::make_shared<const UndecodedFrame>(std::move(undecoded));
+  if (decodes_) decode(frame);
   ready_.emplace_back(std::move(frame));
+}
+
+void MessageAssembler::decode(StereoFrame& frame) const {
+  frame.left = decode(Sensor::kLeft, frame.undecoded->left);
+  if (frame.undecoded->right) frame.right = decode(Sensor::kRight, *frame.undecoded->right);
+  frame.undecoded.reset();
 }
 
 cv::Mat MessageAssembler::decode(Sensor sensor, const UndecodedImage& image) const {

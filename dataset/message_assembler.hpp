@@ -23,6 +23,10 @@ class MessageAssembler {
 
   /// Only every n-th frame is decoded and handed on, the others are counted. For whoever does not need all of them.
   void keep_every_nth_image(int n) { every_nth_image_ = n; }
+  /// From now on frames come undecoded: whoever takes them calls `decode`, on whatever thread.
+  void put_off_decoding() { decodes_ = false; }
+  /// Fills the images of a frame whose decoding was put off. @throws DecodeError as `add`
+  void decode(StereoFrame& frame) const;
 
   /// @throws DecodeError if the bytes are not what the type promises, or an image has another size than the rig's camera
   void add(Sensor sensor, const Decoder& decoder, const RawMessage& raw);
@@ -41,7 +45,7 @@ class MessageAssembler {
   template <class Sample>
   void accept_timed(Sample sample, double timeshift_s);
   void add_image(Sensor sensor, const Decoder& decoder, const RawMessage& raw);
-  void accept_frame(const UndecodedImage& left, const UndecodedImage* right);
+  void accept_frame(UndecodedFrame undecoded);
   cv::Mat decode(Sensor sensor, const UndecodedImage& image) const;
   bool stamp_is_usable(Sensor sensor, std::int64_t t_ns, std::int64_t receive_ns);
   void accept_packet(LidarPacket packet);
@@ -50,6 +54,7 @@ class MessageAssembler {
   LogConfig config_;
   StereoPairer pairer_;
   int every_nth_image_ = 1;
+  bool decodes_ = true;
   std::int64_t frames_seen_ = 0;
   std::map<Sensor, StampGuard> stamp_guards_;
   std::deque<LogMessage> ready_;

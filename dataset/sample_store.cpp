@@ -213,4 +213,12 @@ void write_sample(const fs::path& dir, const FlightEntry& flight, int index, con
   if (flight.has_dense) write("dense", encode_depth(sample.dense_m));
 }
 
+void move_sample(const fs::path& dir, const FlightEntry& flight, int from, int to) {
+  std::vector<const char*> folders = {"left", "depth", "offset"};
+  if (flight.has_right) folders.push_back("right");
+  if (flight.has_dense) folders.push_back("dense");
+  for (const char* folder : folders)
+    fs::rename(picture_path(dir, flight, folder, from), picture_path(dir, flight, folder, to));
+}
+
 }  // namespace alight

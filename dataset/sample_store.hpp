@@ -86,6 +86,9 @@ void write_samples(const std::filesystem::path& dir, const std::string& flight,
 void write_sample(const std::filesystem::path& dir, const FlightEntry& flight, int index,
                   const Sample& sample, int png_compression);
 
+/// Gives a sample's pictures another index.
+void move_sample(const std::filesystem::path& dir, const FlightEntry& flight, int from, int to);
+
 /// 16-bit: milliseconds + 32768 where there is a depth, else 0. And back, to the millisecond.
 cv::Mat encode_offset(const SparseDepth& sparse);
 cv::Mat decode_offset(const cv::Mat& offset_16);

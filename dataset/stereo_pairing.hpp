@@ -18,6 +18,12 @@ struct UndecodedImage {
   std::int64_t receive_ns = 0;
 };
 
+/// Both eyes of one exposure, not decoded yet; without `right` of a mono rig.
+struct UndecodedFrame {
+  UndecodedImage left;
+  std::optional<UndecodedImage> right;
+};
+
 /// Puts the two eyes of one exposure together, before anything is decoded. Each eye's images must come in time order; the
 /// two streams may be shifted against each other by any number of messages.
 class StereoPairer {

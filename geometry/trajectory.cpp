@@ -1,6 +1,8 @@
 #include "geometry/trajectory.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "geometry/frames.hpp"
 
@@ -23,28 +25,57 @@ bool Trajectory::add_position(std::int64_t t_ns, const Eigen::Vector3d& p_world)
 }
 
 template <class Value>
+double Trajectory::Bracket<Value>::share(std::int64_t t_ns) const {
+  if (after == before) return 0.0;
+  return static_cast<double>(t_ns - before->t_ns) / static_cast<double>(after->t_ns - before->t_ns);
+}
+
+template <class Value>
 std::optional<Trajectory::Bracket<Value>> Trajectory::bracket(const Stream<Value>& stream,
                                                               std::int64_t t_ns) const {
   const auto after =
       std::lower_bound(stream.begin(), stream.end(), t_ns,
                        [](const Timed<Value>& sample, std::int64_t t) { return sample.t_ns < t; });
   if (after == stream.end()) return std::nullopt;
-  if (after->t_ns == t_ns) return Bracket<Value>{&after->value, &after->value, 0.0};
+  if (after->t_ns == t_ns) return Bracket<Value>{&*after, &*after};
   if (after == stream.begin()) return std::nullopt;
   const auto before = std::prev(after);
-  const std::int64_t gap_ns = after->t_ns - before->t_ns;
-  if (gap_ns > max_gap_ns_) return std::nullopt;
-  return Bracket<Value>{&before->value, &after->value,
-                        static_cast<double>(t_ns - before->t_ns) / static_cast<double>(gap_ns)};
+  if (after->t_ns - before->t_ns > max_gap_ns_) return std::nullopt;
+  return Bracket<Value>{&*before, &*after};
 }
 
 std::optional<Eigen::Isometry3d> Trajectory::T_world_imu(std::int64_t t_ns) const {
-  const auto attitude = bracket(attitudes_, t_ns);
-  const auto position = bracket(positions_, t_ns);
-  if (!attitude || !position) return std::nullopt;
+  return Cursor(*this).T_world_imu(t_ns);
+}
+
+bool Trajectory::Cursor::move_to(std::int64_t t_ns) {
+  const auto holds = [t_ns](const auto& bracket) {
+    return bracket && bracket->before->t_ns < t_ns && t_ns < bracket->after->t_ns;
+  };
+  if (!holds(position_)) position_ = trajectory_.bracket(trajectory_.positions_, t_ns);
+  if (!position_) return false;
+  if (holds(attitude_)) return true;
+  attitude_ = trajectory_.bracket(trajectory_.attitudes_, t_ns);
+  if (!attitude_) return false;
+  const double dot = attitude_->before->value.dot(attitude_->after->value);
+  const bool alike = std::abs(dot) >= 1 - std::numeric_limits<double>::epsilon();
+  angle_rad_ = alike ? 0 : std::acos(std::abs(dot));
+  sine_ = alike ? 0 : std::sin(angle_rad_);
+  sign_ = dot < 0 ? -1 : 1;
+  return true;
+}
+
+std::optional<Eigen::Isometry3d> Trajectory::Cursor::T_world_imu(std::int64_t t_ns) {
+  if (!move_to(t_ns)) return std::nullopt;
+  const double along = attitude_->share(t_ns);
+  const double weight_before = sine_ == 0 ? 1 - along : std::sin((1 - along) * angle_rad_) / sine_;
+  const double weight_after = sign_ * (sine_ == 0 ? along : std::sin(along * angle_rad_) / sine_);
+  const Eigen::Quaterniond q_world_imu(weight_before * attitude_->before->value.coeffs() +
+                                       weight_after * attitude_->after->value.coeffs());
+  const Eigen::Vector3d& before = position_->before->value;
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = attitude->before->slerp(attitude->share, *attitude->after).toRotationMatrix();
-  T.translation() = *position->before + position->share * (*position->after - *position->before);
+  T.linear() = q_world_imu.toRotationMatrix();
+  T.translation() = before + position_->share(t_ns) * (position_->after->value - before);
   return T;
 }
 

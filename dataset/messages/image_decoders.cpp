@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "dataset/messages/decoders.hpp"
+#include "dataset/messages/jpeg_decoder.hpp"
 
 namespace alight {
 namespace {
@@ -67,19 +68,12 @@ bool starts_with(const std::uint8_t* data, std::size_t size, std::string_view ma
   return size >= magic.size() && std::memcmp(data, magic.data(), magic.size()) == 0;
 }
 
-/// libjpeg fills a cut-off picture with grey and only warns, so the end marker is looked for; zeros behind it
-/// are what some drivers pad with.
-bool jpeg_is_whole(const std::uint8_t* data, std::size_t size) {
-  while (size > 2 && data[size - 1] == 0) --size;
-  return size > 2 && data[size - 2] == 0xFF && data[size - 1] == 0xD9;
-}
-
-cv::Mat decode_picture(const std::uint8_t* data, std::size_t size) {
+cv::Mat decode_png(const std::uint8_t* data, std::size_t size) {
   const cv::Mat bytes(1, static_cast<int>(size), CV_8UC1, const_cast<std::uint8_t*>(data));
   try {
     return cv::imdecode(bytes, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception& e) {
-    throw DecodeError("picture: " + e.err);
+    throw DecodeError("PNG: " + e.err);
   }
 }
 
@@ -122,12 +116,14 @@ std::optional<DecodedMessage> decode_compressed_image(const RawMessage& message,
   const auto size = reader.read<std::uint32_t>();
   const std::uint8_t* data = reader.take(size);
   reader.expect_end();
-  const bool jpeg = starts_with(data, size, "\xFF\xD8\xFF");
+  if (is_jpeg(data, size)) {
+    out.image = decode_jpeg(data, size, kMaxImageSide_px);
+    return out;
+  }
   const bool png = starts_with(data, size, "\x89PNG\r\n\x1A\n");
-  if (!jpeg && !png) throw DecodeError("compressed image is neither JPEG nor PNG");
-  if (jpeg && !jpeg_is_whole(data, size)) throw DecodeError("JPEG is cut off");
-  out.image = decode_picture(data, size);
-  if (out.image.empty()) throw DecodeError(std::string(jpeg ? "JPEG" : "PNG") + " is damaged");
+  if (!png) throw DecodeError("compressed image is neither JPEG nor PNG");
+  out.image = decode_png(data, size);
+  if (out.image.empty()) throw DecodeError("PNG is damaged");
   if (out.image.type() == CV_8UC4) cv::cvtColor(out.image, out.image, cv::COLOR_BGRA2BGR);
   if (out.image.type() != CV_8UC1 && out.image.type() != CV_8UC3) {
     throw DecodeError("compressed image is neither 8-bit grey nor 8-bit colour");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -21,12 +22,16 @@ struct CameraImage {
   cv::Mat image;
 };
 
+struct UndecodedFrame;
+
 /// Both eyes of one exposure, raw as in the log (not rectified), grey or BGR. `right` is empty for a mono
 /// rig.
 struct StereoFrame {
   std::int64_t t_ns = 0;  ///< exposure of the left image
   cv::Mat left;
   cv::Mat right;
+  std::shared_ptr<const UndecodedFrame> undecoded =
+      nullptr;  ///< where decoding was put off; the images are then empty
 };
 
 /// One echo, at its own time.

@@ -5,17 +5,27 @@
 #include <set>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cloud_message.hpp"
+#include "dataset/messages/jpeg_decoder.hpp"
 #include "decoding.hpp"
 
 namespace alight::testing {
 namespace {
 
 using ::testing::HasSubstr;
+
+cv::Mat noisy(int type) {
+  cv::Mat picture(40, 61, type);
+  cv::RNG random(5);
+  random.fill(picture, cv::RNG::UNIFORM, 0, 256);
+  cv::blur(picture, picture, {5, 5});
+  return picture;
+}
 
 TEST(Decoders, EveryRowRefusesEveryCutOffMessageAndTrailingBytes) {
   sensor_msgs::Imu imu;
@@ -162,6 +172,32 @@ sensor_msgs::CompressedImage compressed(const std::string& extension, const cv::
   message.format = "whatever the driver writes";
   cv::imencode(extension, image, message.data);
   return message;
+}
+
+TEST(CompressedImageDecoder, JpegPixelsAreOpenCvs) {
+  for (const cv::Mat& picture : {noisy(CV_8UC3), noisy(CV_8UC1)}) {
+    for (const int quality : {40, 95}) {
+      std::vector<std::uint8_t> bytes;
+      cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+      const cv::Mat ours = decode_jpeg(bytes.data(), bytes.size(), 1000);
+      const cv::Mat theirs = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+      ASSERT_EQ(ours.type(), theirs.type());
+      EXPECT_EQ(cv::norm(ours, theirs, cv::NORM_INF), 0);
+    }
+  }
+}
+
+TEST(CompressedImageDecoder, ADamagedJpegIsNoImageAndAPaddedOneIs) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", noisy(CV_8UC3), bytes);
+  std::vector<std::uint8_t> padded = bytes;
+  padded.insert(padded.end(), 100, 0);
+  EXPECT_NO_THROW(decode_jpeg(padded.data(), padded.size(), 1000));
+  EXPECT_THROW(decode_jpeg(bytes.data(), bytes.size() / 2, 1000), DecodeError);
+  EXPECT_THROW(decode_jpeg(bytes.data(), bytes.size(), 30), DecodeError);
+  std::vector<std::uint8_t> scratched = bytes;
+  for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i) scratched[i] = 0xFF;
+  EXPECT_THROW(decode_jpeg(scratched.data(), scratched.size(), 1000), DecodeError);
 }
 
 TEST(CompressedImageDecoder, ReadsJpegAndPng) {
