@@ -63,8 +63,7 @@ class TopicInspection {
   void add(const rosbag::MessageInstance& message) {
     const auto t_ns = static_cast<std::int64_t>(message.getTime().toNSec());
     if (report_.messages == 0) report_.first_ns = t_ns;
-    if (report_.messages > 0)
-      report_.longest_gap_s = std::max(report_.longest_gap_s, to_seconds(t_ns - report_.last_ns));
+    if (report_.messages > 0) add_gap(t_ns);
     report_.last_ns = t_ns;
     ++report_.messages;
     if (!has_header_ && decoders_.empty()) return;
@@ -77,10 +76,22 @@ class TopicInspection {
 
   TopicReport finish() {
     if (!offsets_s_.empty()) report_.offset = summarize(std::move(offsets_s_));
+    if (!gaps_s_.empty()) {
+      const double limit_s = 3 * summarize(gaps_s_).median_s;
+      report_.gaps =
+          std::count_if(gaps_s_.begin(), gaps_s_.end(), [&](double gap_s) { return gap_s > limit_s; });
+    }
     return std::move(report_);
   }
 
  private:
+  void add_gap(std::int64_t t_ns) {
+    gaps_s_.push_back(to_seconds(t_ns - report_.last_ns));
+    if (gaps_s_.back() <= report_.longest_gap_s) return;
+    report_.longest_gap_s = gaps_s_.back();
+    report_.longest_gap_ns = report_.last_ns;
+  }
+
   void add_stamp(const RawMessage& raw) {
     try {
       offsets_s_.push_back(to_seconds(raw.receive_ns - ByteReader(raw).read_header().stamp_ns));
@@ -127,6 +138,7 @@ class TopicInspection {
   bool has_header_;
   std::vector<const Decoder*> decoders_;
   std::vector<double> offsets_s_;
+  std::vector<double> gaps_s_;
   ByteSink sink_;
 };
 

@@ -39,6 +39,8 @@ struct TopicReport {
   std::int64_t first_ns = 0;  ///< receive times
   std::int64_t last_ns = 0;
   double longest_gap_s = 0;                              ///< between messages that follow one another
+  std::int64_t longest_gap_ns = 0;                       ///< receive time of the message before it
+  std::int64_t gaps = 0;                                 ///< longer than three times the median
   std::optional<ClockOffset> offset;                     ///< none: the type has no header
   bool known_type = false;                               ///< a decoder has its name
   bool known_version = false;                            ///< and its checksum

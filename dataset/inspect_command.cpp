@@ -42,6 +42,13 @@ void print_offset(const TopicReport& topic) {
               topic.offset->min_s, topic.offset->max_s);
 }
 
+void print_gaps(const TopicReport& topic, std::int64_t begin_ns) {
+  if (topic.gaps == 0) return;
+  std::printf("    %lld gaps longer than three times the median, the longest %.3f s at %.3f s\n",
+              static_cast<long long>(topic.gaps), topic.longest_gap_s,
+              to_seconds(topic.longest_gap_ns - begin_ns));
+}
+
 void print_trials(const TopicReport& topic) {
   for (const RoleTrial& trial : topic.roles) {
     if (trial.example) std::printf("    %s: %s\n", name(trial.role), describe(*trial.example).c_str());
@@ -84,6 +91,7 @@ void print_report(const BagReport& report) {
                 static_cast<long long>(topic.messages), topic.rate_hz(),
                 to_seconds(topic.last_ns - topic.first_ns), topic.longest_gap_s, use_of(topic).c_str());
     print_offset(topic);
+    print_gaps(topic, report.begin_ns);
     print_trials(topic);
     print_frames(topic);
   }

@@ -9,6 +9,7 @@
 #include "configs/config_reader.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/point_timing.hpp"
+#include "geometry/transform_form.hpp"
 
 namespace alight {
 
@@ -31,8 +32,9 @@ struct RigLidar {
   std::string topic;
 };
 
-/// Sensors and their mounting, as calibrated. A file made by Kalibr (`camchain-imucam.yaml`) is one; ours
-/// adds `lidar0` with `T_cam_lidar rostopic timeshift`.
+/// Sensors and their mounting, as calibrated. A file made by Kalibr (`camchain-imucam.yaml`) is one; ours adds `lidar0`,
+/// the time stamps to use, other forms of the transforms (bind_transform) and lenses out of other programs' files
+/// (read_calibration_file). `docs/formats.md` lists the keys.
 struct Rig {
   RigCamera cam0;                 ///< left
   std::optional<RigCamera> cam1;  ///< right; absent: mono
@@ -46,10 +48,5 @@ Rig load_rig(const std::filesystem::path& path);
 Rig parse_rig(const std::string& text, const std::string& name);
 /// The rig as a file that load_rig reads back.
 std::string format_rig(const Rig& rig);
-
-/// 4x4 row-major nested list <-> transform, for other files that carry poses.
-std::vector<std::vector<double>> matrix_rows(const Eigen::Isometry3d& T);
-/// Empty if `rows` is no 4x4 matrix whose upper left is a rotation.
-std::optional<Eigen::Isometry3d> isometry_from_rows(const std::vector<std::vector<double>>& rows);
 
 }  // namespace alight

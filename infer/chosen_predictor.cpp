@@ -10,6 +10,20 @@
 
 namespace alight {
 
+namespace {
+
+/// With one eye there is no right image to reconstruct.
+void say_what_mono_means(const DepthEngineConfig& config) {
+  spdlog::info("mono rig: predictions are judged by held-out LiDAR points, not by stereo");
+  if (config.image.self_evaluation.decide_by == DecideBy::kStereo) {
+    spdlog::warn(
+        "engine.image.self_evaluation.decide_by is stereo, which never accepts with a mono rig; set it to "
+        "lidar_holdout");
+  }
+}
+
+}  // namespace
+
 std::filesystem::path chosen_network(const ReplayConfig& config) {
   std::optional<std::filesystem::path> checkpoint;
   if (config.checkpoint) checkpoint = *config.checkpoint;
@@ -26,6 +40,7 @@ std::filesystem::path chosen_network(const ReplayConfig& config) {
 std::shared_ptr<DepthPredictor> make_chosen_predictor(const ReplayConfig& config, const Rig& rig,
                                                       bool lidar_only) {
   if (lidar_only) return nullptr;
+  if (!rig.cam1) say_what_mono_means(config.engine);
   return make_network_predictor(chosen_network(config), engine_rig(config.engine, rig), config.network);
 }
 

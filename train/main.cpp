@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/command_line.hpp"
+#include "dataset/sample_store.hpp"
 #include "models/network_summary.hpp"
 #include "train/benchmark.hpp"
 #include "train/plot_command.hpp"
@@ -106,6 +107,11 @@ int train(const TrainConfig& config, RunFolder& folder, const ProcessGroup& grou
   if (resume) trainer.resume();
   spdlog::info("{} samples to learn from, {} held out, {} threads", training.size(),
                validation ? validation->size() : 0, at::get_num_threads());
+  if (read_dataset_info(config.dataset).rig.baseline_m == 0) {
+    spdlog::info(
+        "mono data set: the photometric loss compares images in time alone, depth maps are not judged by "
+        "stereo");
+  }
   trainer.run();
   if (const auto report = trainer.evaluate_best()) print_result(*report);
   if (group.rank() == 0) std::printf("wrote %s\n", folder.file("best.pt").string().c_str());

@@ -225,7 +225,7 @@ std::vector<std::int64_t> times_of(const Cloud& cloud, const std::vector<Eigen::
 std::optional<DecodedMessage> decode_point_cloud(const RawMessage& message, const DecodeOptions& options) {
   const Cloud cloud = read_cloud(message, options);
   const std::vector<Eigen::Vector3f> positions = positions_of(cloud);
-  const CloudField* reflectivity = cloud.find_first({"reflectivity", "intensity"});
+  const CloudField* reflectivity = cloud.find_first({"reflectivity", "intensity", "i"});
   LidarPacket out;
   out.t_ns = cloud.stamp.chosen_ns;
   if (positions.empty()) return out;

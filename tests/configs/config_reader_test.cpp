@@ -54,6 +54,21 @@ struct Strict {
 };
 void bind(Binder& b, Strict& c) { b.required("needed", c.needed, "must be given"); }
 
+/// A key that takes a number or a section.
+struct Either {
+  double value = 0;
+  std::optional<Inner> section;
+};
+void bind(Binder& b, Either& c) {
+  if (b.loading() && b.is_section("key")) {
+    const std::size_t mistakes = b.mistakes();
+    b.section("key", c.section, "as a section");
+    if (b.mistakes() != mistakes) c.section.reset();
+  } else {
+    b.field("key", c.value, "as a number");
+  }
+}
+
 template <class T>
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
@@ -161,6 +176,15 @@ TEST(ConfigReader, MissingFileNamesItself) {
 TEST(ConfigReader, OneMessagePerKey) {
   const std::string message = error_of<Outer>("count: x");
   EXPECT_THAT(message, Not(HasSubstr("\n")));
+}
+
+TEST(ConfigReader, AKeyMayTakeAValueOrASection) {
+  EXPECT_EQ(parse_config<Either>("key: 2.5", "f").value, 2.5);
+  EXPECT_FALSE(parse_config<Either>("key: 2.5", "f").section.has_value());
+  EXPECT_EQ(parse_config<Either>("key: {max_slope_deg: 5}", "f").section->max_slope_deg, 5);
+  EXPECT_EQ(parse_config<Either>("{}", "f").value, 0);
+  EXPECT_THAT(error_of<Either>("key: {max_slope_deg: 500}"), HasSubstr("key.max_slope_deg"));
+  EXPECT_THAT(error_of<Either>("key: [1]"), HasSubstr("expected a number"));
 }
 
 }  // namespace

@@ -70,6 +70,17 @@ TEST_F(BagInspection, ClockOffsetsAreReceiveTimeMinusStamp) {
   EXPECT_NEAR(topic(report, "/left").offset->max_s, 0, 1e-6);
 }
 
+TEST_F(BagInspection, GapsAreCountedAndTheLongestIsPlaced) {
+  const BagReport report = inspect_bag(bag_of([](rosbag::Bag& bag) {
+    for (const int ms : {0, 10, 20, 60, 70, 80, 90, 390, 400, 410})
+      bag.write("/attitude", ros_time(kStart_ns + ms * 1'000'000), attitude_message(kStart_ns));
+  }));
+  const TopicReport& attitude = topic(report, "/attitude");
+  EXPECT_EQ(attitude.gaps, 2);
+  EXPECT_NEAR(attitude.longest_gap_s, 0.3, 1e-9);
+  EXPECT_EQ(attitude.longest_gap_ns, kStart_ns + 90'000'000);
+}
+
 TEST_F(BagInspection, UnknownTypesAreListedAndSkipped) {
   const BagReport report = inspect_bag(bag_of([](rosbag::Bag& bag) {
     bag.write("/chatter", ros_time(kStart_ns), std_msgs::String());

@@ -96,6 +96,75 @@ TEST_F(FlightLogTest, ShiftsTimesToTheImuClock) {
   EXPECT_EQ(all_of<AttitudeSample>(messages)[0].t_ns, kStart_ns);
 }
 
+TEST_F(FlightLogTest, EverySensorHasItsOwnClock) {
+  LogConfig config;
+  config.attitude_timeshift_s = 0.001;
+  config.position_timeshift_s = -0.002;
+  config.height_timeshift_s = 0.003;
+  FlightLog log(bag(), small_rig(), config);
+  const auto messages = read_all(log);
+  EXPECT_EQ(all_of<AttitudeSample>(messages)[0].t_ns, kStart_ns + 1'000'000);
+  EXPECT_EQ(all_of<PositionSample>(messages)[0].t_ns, kStart_ns - 2'000'000);
+  EXPECT_EQ(all_of<HeightSample>(messages)[0].t_ns, kStart_ns + 3'000'000);
+}
+
+TEST_F(FlightLogTest, TheReceiveTimeCountsWhereTheRigSaysSo) {
+  Rig rig = small_rig();
+  rig.lidar0->stamp = StampSource::kReceive;
+  rig.cam0.stamp = StampSource::kReceive;
+  FlightLog log(bag(), rig, {});
+  const auto messages = read_all(log);
+  const LidarPacket packet = all_of<LidarPacket>(messages)[0];
+  EXPECT_EQ(packet.t_ns, kStart_ns + 50'000'000) << "its header is 0.1 s earlier";
+  EXPECT_EQ(packet.returns[0].t_ns, packet.t_ns);
+  EXPECT_EQ(all_of<StereoFrame>(messages)[0].t_ns, kStart_ns + 50'000'000);
+}
+
+TEST_F(FlightLogTest, EyesWithClocksApartPairByTheConfiguredLead) {
+  FlightOptions options;
+  options.left_out = {"/right"};
+  const fs::path path = bag_with(options, [](rosbag::Bag& file) {
+    const std::int64_t t_ns = kStart_ns + 50'000'000;
+    file.write("/right", ros_time(t_ns), image_message(t_ns + 30'000'000, 64, 48, "bgr8"));
+  });
+  LogConfig config;
+  config.right_stamp_lead_s = 0.03;
+  FlightLog log(path, small_rig(), config);
+  const auto frames = all_of<StereoFrame>(read_all(log));
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].t_ns, kStart_ns + 50'000'000);
+  FlightLog unaware(path, small_rig(), {});
+  EXPECT_TRUE(all_of<StereoFrame>(read_all(unaware)).empty());
+}
+
+TEST_F(FlightLogTest, OneTopicMayBeAttitudeAndPosition) {
+  FlightOptions options;
+  options.left_out = {"/dji_sdk/attitude", "/dji_sdk/gps_position"};
+  const fs::path path = bag_with(options, [](rosbag::Bag& file) {
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t t_ns = kStart_ns + i * 10'000'000;
+      file.write("/odometry", ros_time(t_ns), odometry_message(t_ns));
+      file.write("/tf", ros_time(t_ns), tf_message(t_ns));
+    }
+  });
+  LogConfig config;
+  for (const char* topic : {"/odometry", "/tf"}) {
+    config.attitude_topic = config.position_topic = topic;
+    config.tf_world_frame = "world";
+    config.tf_body_frame = "body";
+    FlightLog log(path, small_rig(), config);
+    const auto messages = read_all(log);
+    EXPECT_EQ(all_of<AttitudeSample>(messages).size(), 3u) << topic;
+    ASSERT_EQ(all_of<PositionSample>(messages).size(), 3u) << topic;
+    EXPECT_EQ(std::get<Eigen::Vector3d>(all_of<PositionSample>(messages)[2].position),
+              Eigen::Vector3d(1, 2, 3));
+  }
+  config.tf_body_frame = "";
+  FlightLog log(path, small_rig(), config);
+  EXPECT_THAT(message_of<DataError>([&] { read_all(log); }),
+              AllOf(HasSubstr("/tf"), HasSubstr("log.tf_body_frame")));
+}
+
 TEST_F(FlightLogTest, CountsImagesWithoutTheOtherEye) {
   const fs::path path = bag_with({}, [](rosbag::Bag& file) {
     const std::int64_t t_ns = kStart_ns + 555'000'000;

@@ -1,7 +1,11 @@
 #include "geometry/rig.hpp"
 
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "geometry/stereo_rectification.hpp"
 
 namespace alight {
 namespace {
@@ -82,6 +86,22 @@ TEST(Rig, ShippedRigsLoadAndRoundTrip) {
   EXPECT_EQ(format_rig(again), format_rig(rig));
   EXPECT_TRUE(again.lidar0->T_camera_lidar.isApprox(rig.lidar0->T_camera_lidar, 0));
   EXPECT_EQ(again.cam0.camera.intrinsics, rig.cam0.camera.intrinsics);
+}
+
+TEST(Rig, EveryShippedRigLoadsRectifiesAndRoundTrips) {
+  int rigs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kRoot + "/configs/rigs")) {
+    const Rig rig = load_rig(entry.path());
+    ++rigs;
+    EXPECT_TRUE(rig.cam0.T_camera_imu.has_value()) << entry.path();
+    EXPECT_TRUE(rig.lidar0.has_value()) << entry.path();
+    EXPECT_EQ(format_rig(parse_rig(format_rig(rig), "again")), format_rig(rig)) << entry.path();
+    EXPECT_GT(StereoRectifier(rig).rig().intrinsics.fx_px, 0) << entry.path();
+    // The camera sees part of what the LiDAR sees: something ahead of the LiDAR is ahead of the camera, too.
+    const Eigen::Vector3d p_camera = rig.lidar0->T_camera_lidar * Eigen::Vector3d(20, 0, 0);
+    EXPECT_GT(p_camera.z(), 15) << entry.path();
+  }
+  EXPECT_EQ(rigs, 5);
 }
 
 TEST(Rig, RoundedRotationsBecomeRotations) {
