@@ -20,6 +20,7 @@ constexpr double kRollStep_deg = 0.5;   // points lie within 20 deg of the axis
 constexpr double kNeighbourhood_deg = 0.3;
 constexpr double kRollNeighbourhood_deg = 0.8;
 constexpr double kNeighbourhood_m = 0.1;
+constexpr double kHill_deg = 1;   // a true maximum slopes off so far
 constexpr double kSharper = 0.5;  // the neighbourhood of the second climb
 
 double total(const std::vector<double>& scores) { return std::accumulate(scores.begin(), scores.end(), 0.0); }
@@ -42,44 +43,43 @@ std::vector<double> steps(double reach, double step) {
 
 /// All turns of a grid.
 struct TurnSearch {
-  Vector3d best_turn = Vector3d::Zero();
-  VectorXd best;    // scores of the blocks there
-  VectorXd chance;  // their means over the grid
+  Vector3d best_deg = Vector3d::Zero();
+  double best = 0;
+  double chance = 0;      // mean of the scores away from the best
+  double stands_out = 0;  // (best - chance) over the standard deviation of those
 };
 
 TurnSearch search_turns(const EdgeAgreement& agreement, double reach_deg) {
   const std::size_t every_nth = agreement.points() / kCoarsePoints + 1;
   const std::vector<double> turns = steps(reach_deg, kTurnStep_deg);
-  TurnSearch search;
-  double count = 0;
+  std::vector<std::pair<Vector3d, double>> scores;
   for (const double z_deg : steps(reach_deg, kRollStep_deg)) {
     for (const double y_deg : turns) {
       for (const double x_deg : turns) {
-        const Vector3d turn = Vector3d(x_deg, y_deg, z_deg) * kRadiansPerDegree;
-        const VectorXd scores = in_blocks(agreement.scores(motion_of(turn, Vector3d::Zero()), every_nth));
-        if (count == 0) search.chance = VectorXd::Zero(scores.size());
-        search.chance += scores;
-        ++count;
-        if (search.best.size() != 0 && scores.sum() <= search.best.sum()) continue;
-        search.best = scores;
-        search.best_turn = turn;
+        const Vector3d deg(x_deg, y_deg, z_deg);
+        scores.emplace_back(
+            deg, total(agreement.scores(motion_of(deg * kRadiansPerDegree, Vector3d::Zero()), every_nth)));
       }
     }
   }
-  search.chance /= count;
+  TurnSearch search;
+  const auto best = std::max_element(scores.begin(), scores.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  search.best_deg = best->first;
+  search.best = best->second;
+  double sum = 0;
+  double squares = 0;
+  double count = 0;
+  for (const auto& [deg, score] : scores) {
+    if ((deg - search.best_deg).head<2>().norm() < kHill_deg) continue;
+    sum += score;
+    squares += score * score;
+    ++count;
+  }
+  search.chance = sum / count;
+  const double deviation = std::sqrt(std::max(0.0, squares / count - search.chance * search.chance));
+  search.stands_out = (search.best - search.chance) / std::max(deviation, 1e-9);
   return search;
-}
-
-/// What the best turn gains over chance, in standard errors. A block gains in proportion to its points, give or take; the
-/// error comes from how much it is give or take (that of a ratio).
-double significance(const TurnSearch& search, const EdgeAgreement& agreement) {
-  std::vector<double> counts;
-  for (std::size_t i = 0; i < agreement.views(); ++i)
-    counts.push_back(static_cast<double>(agreement.points_of(i)) / static_cast<double>(agreement.points()));
-  const VectorXd gain = search.best - search.chance;
-  const VectorXd off = gain - gain.sum() * in_blocks(counts);
-  const double blocks = static_cast<double>(gain.size());
-  return gain.sum() / std::sqrt(std::max(off.squaredNorm() * blocks / (blocks - 1), 1e-18));
 }
 
 /// Widely, not to be caught by a bump, then sharply, because a wide hill need not be even.
@@ -97,10 +97,10 @@ Betterment to_betterment(const ScorePeak& peak) { return {peak.found, peak.at, p
 void bind(Binder& b, EdgeCheckConfig& c) {
   b.field("window_s", c.window_s, "LiDAR edges measured within half of it of an image are held against it",
           positive());
-  b.field("max_turn_deg", c.max_turn_deg, "searched about each axis", between(0.5, 10));
+  b.field("max_turn_deg", c.max_turn_deg, "searched about each axis", between(1.5, 10));
   b.field("min_edges", c.min_edges, "fewer say nothing", at_least(10));
-  b.field("min_significance", c.min_significance,
-          "the best agreement over chance, in standard deviations of the search's scores", positive());
+  b.field("min_stands_out", c.min_stands_out,
+          "the best score over those away from it, in their standard deviations", positive());
 }
 
 Eigen::Isometry3d motion_of(const Vector3d& turn_rad, const Vector3d& shift_m) {
@@ -116,16 +116,16 @@ EdgeCheck check_edges(const EdgeAgreement& agreement, const EdgeCheckConfig& con
   if (result.edges < config.min_edges || result.views < 3) return result;
   result.score = total(agreement.scores(Eigen::Isometry3d::Identity()));
   const TurnSearch search = search_turns(agreement, config.max_turn_deg);
-  result.chance = search.chance.sum();
-  result.significance = significance(search, agreement);
+  result.chance = search.chance;
+  result.stands_out = search.stands_out;
   const Vector3d step =
       Vector3d(kNeighbourhood_deg, kNeighbourhood_deg, kRollNeighbourhood_deg) * kRadiansPerDegree;
   const ScorePeak turn = climb_twice(
       [&](const VectorXd& at) { return in_blocks(agreement.scores(motion_of(at, Vector3d::Zero()))); },
-      search.best_turn, step);
+      search.best_deg * kRadiansPerDegree, step);
   result.turn = to_betterment(turn);
   result.best_score = total(agreement.scores(motion_of(turn.at, Vector3d::Zero())));
-  result.peak = turn.found && result.significance >= config.min_significance;
+  result.peak = turn.found && result.stands_out >= config.min_stands_out;
   if (!result.peak) return result;
   result.shift = to_betterment(
       climb_twice([&](const VectorXd& at) { return in_blocks(agreement.scores(motion_of(turn.at, at))); },

@@ -11,8 +11,9 @@ struct EdgeCheckConfig {
   double window_s = 0.5;    ///< LiDAR edges measured within half of it of an image are held against it
   double max_turn_deg = 2;  ///< searched about each axis
   int min_edges = 400;      ///< fewer say nothing
-  double min_significance =
-      5.5;  ///< the best agreement over chance, in standard deviations of the search's scores
+  /// How far the best score stands out from those away from it, in their standard deviations (peak to side lobes). Edges held
+  /// against images that they have nothing to do with reached 4.6.
+  double min_stands_out = 5.0;
 };
 void bind(Binder& b, EdgeCheckConfig& c);
 
@@ -27,13 +28,13 @@ struct Betterment {
 struct EdgeCheck {
   int edges = 0;
   int views = 0;
-  double score = 0;         ///< at the rig's mounting, 1 is no better than elsewhere in the images
-  double best_score = 0;    ///< after the turn
-  double chance = 0;        ///< the mean over the search
-  double significance = 0;  ///< (best_score - chance) over the standard deviation over the search
-  bool peak = false;        ///< significant enough to say anything
-  Betterment turn;          ///< T_cam_lidar = Exp(turn) * (the rig's), shift held
-  Betterment shift;         ///< and what a shift would add to that turn
+  double score = 0;       ///< at the rig's mounting, 1 is no better than elsewhere in the images
+  double best_score = 0;  ///< after the turn
+  double chance = 0;      ///< the mean of the search away from the best
+  double stands_out = 0;  ///< (best - chance) over the standard deviation of those
+  bool peak = false;      ///< stands out enough to say anything
+  Betterment turn;        ///< T_cam_lidar = Exp(turn) * (the rig's), shift held
+  Betterment shift;       ///< and what a shift would add to that turn
 };
 
 EdgeCheck check_edges(const EdgeAgreement& agreement, const EdgeCheckConfig& config);

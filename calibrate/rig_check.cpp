@@ -1,6 +1,7 @@
 #include "calibrate/rig_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "calibrate/text_format.hpp"
@@ -9,13 +10,18 @@
 namespace alight {
 namespace {
 
+constexpr double kJudged =
+    1.5;  // an axis whose motions show only from so many times the limit on is not judged
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
 AxisCheck judge(std::string name, std::string unit, double by, double sigma, double limit, bool found,
                 const RigCheckConfig& config) {
-  AxisCheck axis{std::move(name), std::move(unit), found, by, sigma, limit, false, false};
-  axis.judged = found && config.moved_sigmas * sigma <= limit;
-  axis.moved = found && std::abs(by) > std::max(limit, config.moved_sigmas * sigma);
+  AxisCheck axis{std::move(name), std::move(unit),
+                 found,           by,
+                 sigma,           std::max(limit, config.moved_sigmas * sigma),
+                 false,           false};
+  axis.judged = found && axis.noticed_from <= kJudged * limit;
+  axis.moved = found && std::abs(by) > axis.noticed_from;
   return axis;
 }
 
@@ -32,11 +38,15 @@ void judge_lidar(const EdgeCheck& edges, const RigCheckConfig& config, std::vect
   }
 }
 
+bool usable(const StereoAgreement& stereo, const RigCheckConfig& config) {
+  return stereo.points >= config.min_stereo_points && stereo.explained >= config.min_stereo_explained;
+}
+
 void judge_right(const StereoAgreement& stereo, const RigCheckConfig& config, std::vector<AxisCheck>& axes) {
   for (int i = 0; i < 3; ++i) {
     axes.push_back(judge(std::string("right camera turn about ") + kAxes[static_cast<std::size_t>(i)], "deg",
                          to_degrees(stereo.turn_rad[i]), to_degrees(stereo.sigma_rad[i]),
-                         config.moved_eye_deg, stereo.points >= config.min_stereo_points, config));
+                         config.moved_eye_deg, usable(stereo, config), config));
   }
 }
 
@@ -49,18 +59,24 @@ std::string why_no_peak(const EdgeCheck& edges, const EdgeCheckConfig& config) {
         edges.edges, config.min_edges);
   }
   return format_text(
-      "the LiDAR's depth edges lie on the images' edges nowhere better than by chance (%.1f standard errors, "
-      "%.1f "
-      "are needed): the images show no edges, poses are wrong, clocks disagree (alight-dataset align), or "
-      "the "
-      "LiDAR is turned by more than %.1f deg",
-      edges.significance, config.min_significance, config.max_turn_deg);
+      "the LiDAR's depth edges lie on the images' edges nowhere better than by chance (the best place stands "
+      "out by "
+      "%.1f standard deviations, %.1f are needed): the images show no edges, poses are wrong, clocks "
+      "disagree, or "
+      "the LiDAR is turned by more than %.1f deg",
+      edges.stands_out, config.min_stands_out, config.max_turn_deg);
 }
 
 void explain(const RigCheckConfig& config, RigCheck& check) {
   for (const AxisCheck& axis : check.axes) {
     if (axis.moved)
       check.reasons.push_back(format_text("%s: %+.3f %s", axis.name.c_str(), axis.by, axis.unit.c_str()));
+  }
+  for (const AxisCheck& axis : check.axes) {
+    if (axis.found && !axis.judged && axis.unit == "deg")
+      check.reasons.push_back(format_text(
+          "%s cannot be judged: it would show only from %.2f %s on; fly longer or over more that stands up",
+          axis.name.c_str(), axis.noticed_from, axis.unit.c_str()));
   }
   if (!check.edges.peak) check.reasons.push_back(why_no_peak(check.edges, config.edges));
   if (check.has_right && check.stereo.points < config.min_stereo_points) {
@@ -69,6 +85,13 @@ void explain(const RigCheckConfig& config, RigCheck& check) {
                     "dark, or the right "
                     "camera is turned by more than a degree",
                     check.stereo.points, config.min_stereo_points));
+  } else if (check.has_right && !usable(check.stereo, config)) {
+    check.reasons.push_back(
+        format_text("no turn of the right camera explains where it sees the left one's patches (%.0f %% of "
+                    "%d, %.0f %% are needed): "
+                    "the eyes' stamps or topics do not belong together, or the right camera is turned by "
+                    "more than a degree",
+                    100 * check.stereo.explained, check.stereo.points, 100 * config.min_stereo_explained));
   }
 }
 
@@ -90,6 +113,8 @@ void bind(Binder& b, RigCheckConfig& c) {
   b.field("stereo_window_s", c.stereo_window_s,
           "LiDAR points measured within half of it of an image compare its two eyes", positive());
   b.field("min_stereo_points", c.min_stereo_points, "fewer say nothing", at_least(10));
+  b.field("min_stereo_explained", c.min_stereo_explained,
+          "share of these points that one turn has to explain", between(0, 1));
   b.field("moved_turn_deg", c.moved_turn_deg,
           "the LiDAR has moved where a turn about x or y by more betters the agreement", positive());
   b.field("moved_roll_deg", c.moved_roll_deg, "or about the camera's optical axis z", positive());

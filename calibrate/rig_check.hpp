@@ -21,6 +21,8 @@ struct RigCheckConfig {
   EdgeCheckConfig edges;
   double stereo_window_s = 0.2;  ///< LiDAR points measured within half of it of an image compare its two eyes
   int min_stereo_points = 300;   ///< fewer say nothing
+  double min_stereo_explained =
+      0.5;  ///< of these points; where no turn explains so many, the eyes do not look at the same
   double moved_turn_deg =
       0.2;  ///< the LiDAR has moved where a turn by more betters the agreement: about x and y
   double moved_roll_deg = 0.3;  ///< and about the camera's optical axis, which edges tell less well
@@ -41,8 +43,9 @@ struct AxisCheck {
   bool found = false;  ///< the agreement has a maximum that stands out; else `by` and `sigma` mean nothing
   double by = 0;       ///< what would better the agreement
   double sigma = 0;
-  double limit = 0;     ///< from where on it counts as moved
-  bool judged = false;  ///< the log can tell a motion of `limit`
+  double noticed_from =
+      0;  ///< a motion by more counts as moved: the limit, or what the log can tell where that is more
+  bool judged = false;  ///< noticed_from is not far above the limit
   bool moved = false;
 };
 

@@ -18,10 +18,9 @@ const char* judgement(const AxisCheck& axis) {
 
 std::string axis_line(const AxisCheck& axis) {
   if (!axis.found)
-    return format_text("%-28s %10s %10s %8.2f %-4s %s\n", axis.name.c_str(), "-", "-", axis.limit,
-                       axis.unit.c_str(), judgement(axis));
+    return format_text("%-28s %10s %10s %13s %s\n", axis.name.c_str(), "-", "-", "-", judgement(axis));
   return format_text("%-28s %+10.3f %10.4f %8.2f %-4s %s\n", axis.name.c_str(), axis.by, axis.sigma,
-                     axis.limit, axis.unit.c_str(), judgement(axis));
+                     axis.noticed_from, axis.unit.c_str(), judgement(axis));
 }
 
 void draw_title(cv::Mat& picture, const std::string& title) {
@@ -95,21 +94,24 @@ std::string format_rig_check(const RigCheck& check) {
   for (const std::string& reason : check.reasons) text += "  " + reason + "\n";
   text += format_text("\nLiDAR's depth edges against image edges: %d edges in %d images\n", e.edges, e.views);
   text += format_text(
-      "  score %.3f, at its best nearby %.3f, by chance %.3f; the best stands out by %.1f standard errors\n",
-      e.score, e.best_score, e.chance, e.significance);
+      "  score %.3f, at its best nearby %.3f, by chance %.3f; the best stands out by %.1f standard "
+      "deviations\n",
+      e.score, e.best_score, e.chance, e.stands_out);
   if (check.has_right) {
     const StereoAgreement& s = check.stereo;
     text += format_text("left against right camera at the LiDAR's points: %d points in %d images\n", s.points,
                         s.views);
-    text += format_text("  correlation %.3f, at its best nearby %.3f, %.2f px away\n", s.correlation,
-                        s.best_correlation, s.offset_px);
+    text +=
+        format_text("  correlation %.3f, at its best nearby %.3f, %.2f px away; one turn explains %.0f %%\n",
+                    s.correlation, s.best_correlation, s.offset_px, 100 * s.explained);
   }
-  text += format_text("\n%-28s %10s %10s %8s\n", "what would better them", "by", "1 sigma", "limit");
+  text += format_text("\n%-28s %10s %10s %8s\n", "what would better them", "by", "1 sigma", "from");
   for (const AxisCheck& axis : check.axes) text += axis_line(axis);
   text +=
-      "\nx right, y down, z forward. T_cam_lidar = Exp(turn) * T_cam_lidar of the rig file would better the "
-      "agreement,\n"
-      "or T_cn_cnm1 of cam1 alike. The shift comes on top of the turn: from high up the two look alike.\n";
+      "\nfrom: what a motion has to exceed to be noticed. Axes: x right, y down, z forward.\n"
+      "T_cam_lidar = Exp(turn) * (T_cam_lidar of the rig file) would better the agreement; T_cn_cnm1 of cam1 "
+      "alike.\n"
+      "The shift comes on top of the turn; from high up the two look alike.\n";
   return text;
 }
 
@@ -119,18 +121,17 @@ std::string rig_check_json(const RigCheck& check) {
   json["verdict"] = name(check.verdict);
   json["reasons"] = check.reasons;
   json["edges"] = {{"edges", e.edges},           {"views", e.views},   {"score", e.score},
-                   {"best_score", e.best_score}, {"chance", e.chance}, {"significance", e.significance}};
+                   {"best_score", e.best_score}, {"chance", e.chance}, {"stands_out", e.stands_out}};
   if (check.has_right) {
-    json["stereo"] = {{"points", check.stereo.points},
-                      {"views", check.stereo.views},
-                      {"correlation", check.stereo.correlation},
-                      {"best_correlation", check.stereo.best_correlation},
-                      {"offset_px", check.stereo.offset_px}};
+    json["stereo"] = {
+        {"points", check.stereo.points},           {"views", check.stereo.views},
+        {"correlation", check.stereo.correlation}, {"best_correlation", check.stereo.best_correlation},
+        {"offset_px", check.stereo.offset_px},     {"explained", check.stereo.explained}};
   }
   for (const AxisCheck& axis : check.axes) {
     nlohmann::json row = {{"name", axis.name},
                           {"unit", axis.unit},
-                          {"limit", axis.limit},
+                          {"noticed_from", axis.noticed_from},
                           {"judged", axis.judged},
                           {"moved", axis.moved}};
     if (axis.found) row["by"] = axis.by;

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include <Eigen/Dense>
-#include <opencv2/imgproc.hpp>
+
+#include "dataset/patch_search.hpp"
 
 namespace alight {
 namespace {
@@ -13,65 +14,23 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kHalfPatch_px = 5;
-constexpr int kReach_px = 14;            // 1.8 deg at the paper's focal length
-constexpr double kMinContrast = 6;       // standard deviation of a patch, grey levels
-constexpr double kMinCorrelation = 0.7;  // of the best place, or the patch was not found again
+constexpr double kExplained_px = 1;
 constexpr std::size_t kMaxPointsOfView = 150;
 
 /// A point of the left eye found again in the right one.
 struct Match {
   std::size_t view;
-  Vector3d ray;     // where the rig says the right eye sees it, z = 1
-  Vector2d offset;  // found - expected, pixels
-  double correlation;
-  double best_correlation;
+  Vector3d ray;  // where the rig says the right eye sees it, z = 1
+  PatchMatch patch;
 };
 
-/// A maximum's place between samples of a parabola, -0.5 .. 0.5.
-double between_samples(float before, float at, float after) {
-  const double curvature =
-      static_cast<double>(before) - 2 * static_cast<double>(at) + static_cast<double>(after);
-  if (curvature >= 0) return 0;
-  return std::clamp(0.5 * static_cast<double>(before - after) / curvature, -0.5, 0.5);
-}
-
 std::optional<Match> find_again(const FlightView& view, const RectifiedRig& rig, const Vector3d& p_camera) {
-  constexpr int kPatch = 2 * kHalfPatch_px + 1;
-  constexpr int kWindow = kPatch + 2 * kReach_px;
   if (p_camera.z() <= 0) return std::nullopt;
   const Vector3d p_right = rig.T_right_camera() * p_camera;
-  const Vector2d left = rig.intrinsics.project(p_camera);
-  const Vector2d right = rig.intrinsics.project(p_right);
-  constexpr int kLeftMargin = kHalfPatch_px + 1;
-  constexpr int kRightMargin = kHalfPatch_px + kReach_px + 1;
-  const auto inside = [&](const Vector2d& p, int margin) {
-    return p.minCoeff() >= margin && p.x() <= rig.intrinsics.width_px - 1 - margin &&
-           p.y() <= rig.intrinsics.height_px - 1 - margin;
-  };
-  if (!inside(left, kLeftMargin) || !inside(right, kRightMargin)) return std::nullopt;
-  cv::Mat patch;
-  cv::getRectSubPix(view.left, {kPatch, kPatch}, cv::Point2f(left.cast<float>().x(), left.cast<float>().y()),
-                    patch);
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(patch, mean, deviation);
-  if (deviation[0] < kMinContrast) return std::nullopt;
-  cv::Mat window;
-  cv::getRectSubPix(view.right, {kWindow, kWindow},
-                    cv::Point2f(right.cast<float>().x(), right.cast<float>().y()), window);
-  cv::Mat map;
-  cv::matchTemplate(window, patch, map, cv::TM_CCOEFF_NORMED);
-  double best = 0;
-  cv::Point at;
-  cv::minMaxLoc(map, nullptr, &best, nullptr, &at);
-  if (best < kMinCorrelation || at.x == 0 || at.y == 0 || at.x + 1 == map.cols || at.y + 1 == map.rows)
-    return std::nullopt;
-  const auto value = [&](int u, int v) { return map.at<float>(at.y + v, at.x + u); };
-  const Vector2d offset(at.x - kReach_px + between_samples(value(-1, 0), value(0, 0), value(1, 0)),
-                        at.y - kReach_px + between_samples(value(0, -1), value(0, 0), value(0, 1)));
-  return Match{0, p_right / p_right.z(), offset, static_cast<double>(map.at<float>(kReach_px, kReach_px)),
-               best};
+  const auto patch =
+      find_patch(view.left, rig.intrinsics.project(p_camera), view.right, rig.intrinsics.project(p_right));
+  if (!patch) return std::nullopt;
+  return Match{0, p_right / p_right.z(), *patch};
 }
 
 std::vector<Match> find_all(const FlightViews& flight, double window_s) {
@@ -99,14 +58,6 @@ double median_of(const std::vector<Match>& matches, const Value& value) {
   return *middle;
 }
 
-/// How a pixel moves with a turn of what is seen about the right camera's axes (rotation vector).
-Eigen::Matrix<double, 2, 3> by_turn(const Vector3d& ray, const PinholeIntrinsics& k) {
-  Eigen::Matrix<double, 2, 3> J;
-  J << -k.fx_px * ray.x() * ray.y(), k.fx_px * (1 + ray.x() * ray.x()), -k.fx_px * ray.y(),
-      -k.fy_px * (1 + ray.y() * ray.y()), k.fy_px * ray.x() * ray.y(), k.fy_px * ray.x();
-  return J;
-}
-
 /// Normal equations of each view and their solution, by iteratively reweighted least squares (Geman-McClure).
 struct TurnFit {
   Vector3d turn = Vector3d::Zero();
@@ -123,8 +74,8 @@ TurnFit fit_turn(const std::vector<Match>& matches, std::size_t views, const Pin
     Eigen::Matrix3d H = Eigen::Matrix3d::Identity() * 1e-3;
     Vector3d g = Vector3d::Zero();
     for (const Match& match : matches) {
-      const Eigen::Matrix<double, 2, 3> J = by_turn(match.ray, k);
-      const Vector2d r = match.offset - J * fit.turn;
+      const Eigen::Matrix<double, 2, 3> J = pixel_by_turn(match.ray, k);
+      const Vector2d r = match.patch.offset - J * fit.turn;
       const double weight = std::pow(1 + r.squaredNorm() / (width_px * width_px), -2);
       fit.H[match.view] += weight * J.transpose() * J;
       fit.g[match.view] += weight * J.transpose() * r;
@@ -148,6 +99,13 @@ Vector3d sigma_of(const TurnFit& fit) {
   return (inverse * scatter * inverse).diagonal().cwiseSqrt();
 }
 
+double explained_by(const Vector3d& turn, const std::vector<Match>& matches, const PinholeIntrinsics& k) {
+  const auto count = std::count_if(matches.begin(), matches.end(), [&](const Match& match) {
+    return (match.patch.offset - pixel_by_turn(match.ray, k) * turn).norm() < kExplained_px;
+  });
+  return static_cast<double>(count) / static_cast<double>(matches.size());
+}
+
 }  // namespace
 
 StereoAgreement stereo_agreement(const FlightViews& flight, double window_s) {
@@ -158,11 +116,12 @@ StereoAgreement stereo_agreement(const FlightViews& flight, double window_s) {
   std::vector<char> used(flight.views.size(), 0);
   for (const Match& match : matches) used[match.view] = 1;
   result.views = static_cast<int>(std::count(used.begin(), used.end(), 1));
-  result.correlation = median_of(matches, [](const Match& m) { return m.correlation; });
-  result.best_correlation = median_of(matches, [](const Match& m) { return m.best_correlation; });
-  result.offset_px = median_of(matches, [](const Match& m) { return m.offset.norm(); });
+  result.correlation = median_of(matches, [](const Match& m) { return m.patch.correlation; });
+  result.best_correlation = median_of(matches, [](const Match& m) { return m.patch.best_correlation; });
+  result.offset_px = median_of(matches, [](const Match& m) { return m.patch.offset.norm(); });
   const TurnFit fit = fit_turn(matches, flight.views.size(), flight.rig.intrinsics);
   result.turn_rad = fit.turn;
+  result.explained = explained_by(fit.turn, matches, flight.rig.intrinsics);
   result.sigma_rad = sigma_of(fit);
   return result;
 }

@@ -14,6 +14,7 @@ struct StereoAgreement {
   double correlation = 0;  ///< median correlation of the patches where the rig says that they are; 1 is alike
   double best_correlation = 0;  ///< and where they fit best, nearby
   double offset_px = 0;         ///< between the two, median
+  double explained = 0;  ///< share of the points that the turn brings within a pixel of where they fit best
   /// What would bring them together: T_cam1_cam0 = Exp(turn) * (the rig's), in the rectified right camera's frame, with the
   /// standard deviation that the views' scatter gives.
   Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();

@@ -105,9 +105,9 @@ std::vector<SeenPoint> seen_from(const FlightViews& flight, const FlightView& vi
   const Eigen::Isometry3d T_imu_camera = T_camera_imu.inverse();
   const std::int64_t half_ns = to_nanoseconds(0.5 * window_s);
   LidarReturn begin;
-  begin.t_ns = view.t_ns - half_ns - lidar_shift_ns;
+  begin.t_ns = view.t_ns - half_ns;
   LidarReturn end;
-  end.t_ns = view.t_ns + half_ns - lidar_shift_ns;
+  end.t_ns = view.t_ns + half_ns;
   const auto first = std::lower_bound(returns.begin(), returns.end(), begin, earlier);
   const auto last = std::upper_bound(first, returns.end(), end, earlier);
   for (auto point = first; point != last; ++point) {

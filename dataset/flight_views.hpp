@@ -58,7 +58,8 @@ struct SeenPoint {
 
 /// The returns measured within half a window of an image's time, each carried along by the vehicle's motion (paper 3.1
 /// step 2). Returns without a pose are left out; all of them are where the image has none.
-/// @param returns in the order of time. @param lidar_shift_ns added to the returns' times
+/// @param returns in the order of time. @param lidar_shift_ns added to the returns' times for their poses; which returns are
+/// used does not depend on it
 std::vector<SeenPoint> seen_from(const FlightViews& flight, const FlightView& view,
                                  const std::vector<LidarReturn>& returns, double window_s,
                                  std::int64_t lidar_shift_ns = 0);
