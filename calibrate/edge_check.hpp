@@ -3,6 +3,7 @@
 #include "calibrate/rigid_motion.hpp"
 #include "configs/config_reader.hpp"
 #include "dataset/edge_agreement.hpp"
+#include "dataset/turn_search.hpp"
 
 namespace alight {
 
@@ -11,9 +12,8 @@ struct EdgeCheckConfig {
   double window_s = 0.5;    ///< LiDAR edges measured within half of it of an image are held against it
   double max_turn_deg = 2;  ///< searched about each axis
   int min_edges = 400;      ///< fewer say nothing
-  /// How far the best score stands out from those away from it, in their standard deviations (peak to side lobes). Edges held
-  /// against images that they have nothing to do with reached 4.6.
-  double min_stands_out = 5.0;
+  double min_stands_out =
+      kStandsOut;  ///< the best score over those away from it, in their standard deviations
 };
 void bind(Binder& b, EdgeCheckConfig& c);
 

@@ -1,3 +1,4 @@
+#include "dataset/align_command.hpp"
 #include "dataset/commands.hpp"
 
 int main(int argc, char** argv) {
@@ -8,7 +9,8 @@ int main(int argc, char** argv) {
       "  alight-dataset build --config configs/dataset/default.yaml --log a.bag --log b.bag --output "
       "data/demo\n"
       "  alight-dataset info data/demo\n"
-      "  alight-dataset view data/demo --sample 12 --flight a --output sample.png");
+      "  alight-dataset view data/demo --sample 12 --flight a --output sample.png\n"
+      "  alight-dataset align a.bag --rig configs/rigs/paper.yaml");
 
   alight::BuildOptions build;
   CLI::App* build_app = app.add_subcommand("build", "Make a data set of ROS 1 bags");
@@ -35,7 +37,11 @@ int main(int argc, char** argv) {
   view_app->add_option("-o,--output", view.output, "PNG to write")->required();
   view_app->footer("Examples:\n  alight-dataset view data/demo --sample 12 --flight a --output sample.png");
 
+  alight::AlignOptions align;
+  const CLI::App* align_app = alight::add_align(app, align);
+
   return alight::run_tool(app, argc, argv, [&] {
+    if (align_app->parsed()) return alight::run_align(align);
     if (build_app->parsed()) return alight::run_build(build);
     if (info_app->parsed()) return alight::run_info(info);
     return alight::run_view(view);

@@ -33,9 +33,9 @@ INSTANTIATE_TEST_SUITE_P(Tools, EveryTool,
                          ::testing::Values("alight-sim", "alight-sim land", "alight-sim campaign",
                                            "alight-calibrate", "alight-calibrate check",
                                            "alight-calibrate lidar", "alight-calibrate stereo",
-                                           "alight-dataset", "alight-train", "alight-evaluate",
-                                           "alight-evaluate depth", "alight-evaluate self", "alight-export",
-                                           "alight-infer"));
+                                           "alight-dataset", "alight-dataset align", "alight-train",
+                                           "alight-evaluate", "alight-evaluate depth", "alight-evaluate self",
+                                           "alight-export", "alight-infer"));
 
 TEST(TrainPlot, HelpShowsAnExample) {
   const ToolRun run = run_tool("alight-train plot --help");
