@@ -63,6 +63,12 @@ class RigCheckTest : public ::testing::Test {
     static const FlightViews views = read(true_rig());
     return views;
   }
+  /// Searches less far than a user's check: half of the time.
+  static RigCheckConfig config() {
+    RigCheckConfig config;
+    config.edges.max_turn_deg = 1.5;
+    return config;
+  }
   static Eigen::Isometry3d turn(int axis) {
     return motion_of(to_radians(kTurn_deg) * Eigen::Vector3d::Unit(axis), Eigen::Vector3d::Zero());
   }
@@ -76,7 +82,7 @@ class RigCheckTest : public ::testing::Test {
 };
 
 TEST_F(RigCheckTest, ATrueRigIsGood) {
-  const RigCheck check = check_rig(flight(), {});
+  const RigCheck check = check_rig(flight(), config());
   EXPECT_EQ(check.verdict, RigVerdict::kGood) << format_rig_check(check);
   EXPECT_TRUE(check.reasons.empty());
   ASSERT_EQ(check.axes.size(), 9u);
@@ -90,7 +96,7 @@ TEST_P(TurnedLidar, HasMovedAndIsToldHowToTurnBack) {
   const auto axis = static_cast<std::size_t>(GetParam());
   FlightViews turned = flight();
   turned.rig.T_camera_lidar = turn(GetParam()) * flight().rig.T_camera_lidar;
-  const RigCheck check = check_rig(turned, {});
+  const RigCheck check = check_rig(turned, config());
   EXPECT_EQ(check.verdict, RigVerdict::kMoved) << format_rig_check(check);
   EXPECT_TRUE(check.axes[axis].moved);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(check.axes[i].by, i == axis ? -kTurn_deg : 0, 0.15) << i;
@@ -105,7 +111,7 @@ TEST_P(TurnedEye, HasMovedAndIsToldHowToTurnBack) {
   const auto axis = static_cast<std::size_t>(6 + GetParam());
   Rig rig = true_rig();
   rig.T_cam1_cam0 = turn(GetParam()) * rig.T_cam1_cam0;
-  const RigCheck check = check_rig(read(rig), {});
+  const RigCheck check = check_rig(read(rig), config());
   EXPECT_EQ(check.verdict, RigVerdict::kMoved) << format_rig_check(check);
   for (std::size_t i = 6; i < 9; ++i) {
     EXPECT_EQ(check.axes[i].moved, i == axis) << i;
@@ -118,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Axes, TurnedEye, ::testing::Values(0, 1, 2));
 TEST_F(RigCheckTest, AShiftIsNoticed) {
   FlightViews shifted = flight();
   shifted.rig.T_camera_lidar = motion_of(Eigen::Vector3d::Zero(), {0.3, 0, 0}) * flight().rig.T_camera_lidar;
-  const RigCheck check = check_rig(shifted, {});
+  const RigCheck check = check_rig(shifted, config());
   EXPECT_EQ(check.verdict, RigVerdict::kMoved) << format_rig_check(check);
   // From 20 m above the trees the shift looks like a turn about y that brings points back by as much.
   EXPECT_LT(check.axes[1].by, -0.3);
@@ -133,7 +139,7 @@ TEST_F(RigCheckTest, CannotTellWithoutTexture) {
     view.right = view.left.clone();
     random.fill(view.right, cv::RNG::NORMAL, 120, 2);
   }
-  const RigCheck check = check_rig(blank, {});
+  const RigCheck check = check_rig(blank, config());
   EXPECT_EQ(check.verdict, RigVerdict::kCannotTell) << format_rig_check(check);
   for (const AxisCheck& axis : check.axes) EXPECT_FALSE(axis.judged || axis.moved) << axis.name;
   EXPECT_THAT(check.reasons, Contains(HasSubstr("nowhere better than by chance")));
@@ -144,7 +150,7 @@ TEST_F(RigCheckTest, CannotTellFromImagesOfAnotherTime) {
   FlightViews mixed = flight();
   const std::size_t half = mixed.views.size() / 2;
   for (std::size_t i = 0; i < half; ++i) std::swap(mixed.views[i].left, mixed.views[i + half].left);
-  const RigCheck check = check_rig(mixed, {});
+  const RigCheck check = check_rig(mixed, config());
   EXPECT_EQ(check.verdict, RigVerdict::kCannotTell) << format_rig_check(check);
   EXPECT_THAT(check.reasons, Contains(HasSubstr("do not belong together")));
 }
@@ -152,16 +158,16 @@ TEST_F(RigCheckTest, CannotTellFromImagesOfAnotherTime) {
 TEST_F(RigCheckTest, CannotTellWithoutDepthEdges) {
   FlightViews flat = flight();
   flat.edges.resize(100);
-  const RigCheck check = check_rig(flat, {});
+  const RigCheck check = check_rig(flat, config());
   EXPECT_EQ(check.verdict, RigVerdict::kCannotTell);
   EXPECT_THAT(check.reasons, Contains(HasSubstr("fly over houses, trees or boulders")));
-  EXPECT_FALSE(draw_rig_check(flat, check, {}).empty());
+  EXPECT_FALSE(draw_rig_check(flat, check, config()).empty());
 }
 
 TEST_F(RigCheckTest, MonoRigsAreJudgedByTheLidarAlone) {
   Rig mono = true_rig();
   mono.cam1.reset();
-  const RigCheck check = check_rig(read(mono), {});
+  const RigCheck check = check_rig(read(mono), config());
   EXPECT_EQ(check.verdict, RigVerdict::kGood) << format_rig_check(check);
   EXPECT_EQ(check.axes.size(), 6u);
 }
