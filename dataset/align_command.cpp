@@ -4,11 +4,10 @@
 #include <filesystem>
 #include <memory>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "cli/progress_bar.hpp"
 #include "configs/errors.hpp"
 #include "dataset/align_picture.hpp"
+#include "dataset/picture_file.hpp"
 #include "dataset/turn_search.hpp"
 
 namespace alight {
@@ -37,16 +36,6 @@ FlightViews read_views(const AlignOptions& options, const Rig& rig, const ClockA
         bar->advance(read - shown);
         shown = read;
       });
-}
-
-void write_picture(const std::string& path, const cv::Mat& picture) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (!written) throw DataError(path + ": cannot be written; name a .png in a folder that exists");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct BuildOptions {
 
 struct InfoOptions {
   std::string dataset;
+  std::string picture;  ///< empty: none
 };
 
 struct ViewOptions {

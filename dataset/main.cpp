@@ -24,9 +24,11 @@ int main(int argc, char** argv) {
       "  alight-dataset build --log a.bag --set depth_map.window_after_s=0.5 --output data/short");
 
   alight::InfoOptions info;
-  CLI::App* info_app = app.add_subcommand("info", "Print what is in a data set");
+  CLI::App* info_app = app.add_subcommand("info", "Print what is in a data set and what it is like");
   info_app->add_option("dataset", info.dataset, "Folder of the data set")->required();
-  info_app->footer("Examples:\n  alight-dataset info data/demo");
+  info_app->add_option("-p,--picture", info.picture,
+                       "PNG to write: heights, density over accumulation time, coverage");
+  info_app->footer("Examples:\n  alight-dataset info data/demo --picture stats.png");
 
   alight::ViewOptions view;
   CLI::App* view_app =
