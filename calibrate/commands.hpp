@@ -30,8 +30,19 @@ struct LidarOptions {
   std::string report;
 };
 
-/// `alight-calibrate stereo|lidar`: results go to stdout. @returns the exit code. @throws ConfigError, DataError
+struct CheckOptions {
+  ConfigOptions config;
+  std::string log;
+  std::string rig;
+  std::string report;
+};
+
+/// Exit codes of `alight-calibrate check` besides every tool's: kExitOk is a rig that is good.
+enum CheckExitCode { kExitMoved = 3, kExitCannotTell = 4 };
+
+/// `alight-calibrate stereo|lidar|check`: results go to stdout. @returns the exit code. @throws ConfigError, DataError
 int run_stereo(const StereoOptions& options);
 int run_lidar(const LidarOptions& options);
+int run_check(const CheckOptions& options);
 
 }  // namespace alight

@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "calibrate/text_format.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {
@@ -51,15 +52,8 @@ std::optional<double> lidar_motion_m(const std::vector<LidarReturn>& on_board, c
   return motion;
 }
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[240];
-  std::snprintf(buffer, sizeof(buffer), format, values...);
-  return buffer;
-}
-
 std::string refuse_moving(const char* sensor, double motion, const char* unit, double limit) {
-  return text(
+  return format_text(
       "the scene moves: a corner goes by %.3g %s in the %s (at most %.3g); put board and rig on stands, and "
       "let nobody touch them while recording",
       motion, unit, sensor, limit);

@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calibrate/text_format.hpp"
 #include "cli/output_folder.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
@@ -19,9 +20,7 @@ constexpr int kPanelHeight_px = 640;
 
 template <class... Values>
 std::string line(const char* format, Values... values) {
-  char buffer[320];
-  std::snprintf(buffer, sizeof(buffer), format, values...);
-  return std::string(buffer) + "\n";
+  return format_text(format, values...) + "\n";
 }
 
 std::string board_lines(const Extrinsics& e) {

@@ -11,7 +11,8 @@ void add_board_options(CLI::App& app, std::string& board, double& square_m) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Calibrates a rig by a printed chessboard (docs/calibration.md)", "alight-calibrate"};
+  CLI::App app{"Calibrates a rig by a printed chessboard and checks it by a flight (docs/calibration.md)",
+               "alight-calibrate"};
   app.require_subcommand(1)->fallthrough();  // -q and -v also after the subcommand
   app.footer(
       "Examples:\n"
@@ -19,7 +20,8 @@ int main(int argc, char** argv) {
       "--output rig.yaml\n"
       "  alight-calibrate lidar --log b1.bag --log b2.bag --log b3.bag --rig rig.yaml --board 6x4 --square-m "
       "0.12 "
-      "--output rig2.yaml");
+      "--output rig2.yaml\n"
+      "  alight-calibrate check --log flight.bag --rig rig2.yaml");
 
   alight::StereoOptions stereo;
   CLI::App* stereo_app =
@@ -59,8 +61,21 @@ int main(int argc, char** argv) {
       "0.12 "
       "--output rig2.yaml --report report/");
 
+  alight::CheckOptions check;
+  CLI::App* check_app =
+      app.add_subcommand("check", "Whether LiDAR and cameras are still where the rig says, from any flight");
+  alight::add_config_options(*check_app, check.config);
+  check_app->add_option("-l,--log", check.log, "A ROS 1 bag of a flight: images, LiDAR, attitude, position");
+  check_app->add_option("-r,--rig", check.rig, "Rig file to check");
+  check_app->add_option("--report", check.report, "Folder to make for report and picture");
+  check_app->footer(
+      "Exit codes: 0 good, 3 moved, 4 cannot tell (1 failure, 2 usage, as every tool)\n"
+      "Examples:\n"
+      "  alight-calibrate check --log flight.bag --rig rig.yaml --report check/");
+
   return alight::run_tool(app, argc, argv, [&] {
     if (stereo_app->parsed()) return alight::run_stereo(stereo);
+    if (check_app->parsed()) return alight::run_check(check);
     return alight::run_lidar(lidar);
   });
 }

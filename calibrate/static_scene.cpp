@@ -6,6 +6,7 @@
 
 #include "configs/errors.hpp"
 #include "dataset/flight_log.hpp"
+#include "dataset/grey_image.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -19,13 +20,6 @@ cv::Mat mean_image(const std::vector<cv::Mat>& images, std::size_t begin, std::s
   cv::Mat mean;
   sum.convertTo(mean, CV_8UC1, 1.0 / static_cast<double>(end - begin));
   return mean;
-}
-
-cv::Mat to_grey(const cv::Mat& image) {
-  if (image.channels() == 1) return image;
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
 }
 
 /// The left eye and the LiDAR of a rig alone: a recording on a stand has neither poses nor needs the other eye.

@@ -3,123 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <future>
 #include <limits>
 
-#include <opencv2/calib3d.hpp>
-#include <opencv2/core/eigen.hpp>
-#include <opencv2/imgproc.hpp>
-
+#include "calibrate/eye_calibration.hpp"
 #include "calibrate/rigid_motion.hpp"
 #include "calibrate/stereo_bundle.hpp"
+#include "calibrate/text_format.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/stereo_rectification.hpp"
 
 namespace alight {
 namespace {
-
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[240];
-  std::snprintf(buffer, sizeof(buffer), format, values...);
-  return buffer;
-}
-
-/// The eyes hang upright beside each other, so that the board looks alike to both: the order of the right corners in
-/// which they lie as the left ones do, but for a shift.
-void match_order(const Chessboard& board, const Corners& left, Corners& right) {
-  Corners best = right;
-  double best_spread = std::numeric_limits<double>::infinity();
-  for (const Eigen::Isometry3d& turn : board_turns(board)) {
-    Corners turned;
-    cv::Point2d mean(0, 0);
-    for (int i = 0; i < board.corners(); ++i) {
-      const Eigen::Vector3d at = turn * board.corner(i) / board.square_m;
-      const auto index = static_cast<std::size_t>(std::lround(at.y()) * board.columns + std::lround(at.x()));
-      turned.push_back(right[index]);
-      mean += cv::Point2d(right[index] - left[static_cast<std::size_t>(i)]) / board.corners();
-    }
-    double spread = 0;
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      const cv::Point2d off = cv::Point2d(turned[i] - left[i]) - mean;
-      spread += off.dot(off);
-    }
-    if (spread >= best_spread) continue;
-    best_spread = spread;
-    best = turned;
-  }
-  right = best;
-}
-
-void find_board(const Chessboard& board, StereoView& view) {
-  const auto left = find_chessboard(view.left, board);
-  const auto right = find_chessboard(view.right, board);
-  if (!left || !right) {
-    view.reason = (left    ? "right: "
-                   : right ? "left: "
-                           : "both eyes: ") +
-                  why_not_found(left ? view.right : view.left, board);
-    return;
-  }
-  view.left_corners = *left;
-  view.right_corners = *right;
-  match_order(board, view.left_corners, view.right_corners);
-}
-
-Camera camera_of(const cv::Mat& K, const cv::Mat& D, cv::Size size, DistortionModel model) {
-  Camera camera;
-  camera.intrinsics = {K.at<double>(0, 0), K.at<double>(1, 1), K.at<double>(0, 2),
-                       K.at<double>(1, 2), size.width,         size.height};
-  camera.distortion_model = model;
-  for (int i = 0; i < static_cast<int>(D.total()); ++i) camera.distortion_coeffs.push_back(D.at<double>(i));
-  return camera;
-}
-
-struct Eye {
-  Camera camera;
-  std::vector<Eigen::Isometry3d> T_camera_board;
-};
-
-/// One camera alone, by OpenCV.
-Eye calibrate_eye(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size,
-                  const StereoCalibrationConfig& config) {
-  std::vector<cv::Mat> rotations;
-  std::vector<cv::Mat> translations;
-  cv::Mat K;
-  cv::Mat D;
-  if (config.model == DistortionModel::kEquidistant) {
-    std::vector<std::vector<cv::Point3d>> points;
-    std::vector<std::vector<cv::Point2d>> pixels;
-    for (const Corners& view : corners) {
-      std::vector<cv::Point3d> p;
-      for (const cv::Point3f& corner : board.corner_points()) p.emplace_back(corner);
-      points.push_back(p);
-      pixels.emplace_back(view.begin(), view.end());
-    }
-    cv::fisheye::calibrate(points, pixels, size, K, D, rotations, translations,
-                           cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC | cv::fisheye::CALIB_FIX_SKEW);
-  } else {
-    const std::vector<std::vector<cv::Point3f>> points(corners.size(), board.corner_points());
-    cv::calibrateCamera(points, corners, size, K, D, rotations, translations,
-                        config.radtan_coefficients == 4 ? cv::CALIB_FIX_K3 : 0);
-    D = D.reshape(1, 1).colRange(0, config.radtan_coefficients).clone();
-  }
-  Eye eye{camera_of(K, D, size, config.model), {}};
-  for (std::size_t i = 0; i < rotations.size(); ++i) {
-    cv::Mat R;
-    cv::Rodrigues(rotations[i], R);
-    Eigen::Matrix3d R_eigen;
-    cv::cv2eigen(R, R_eigen);
-    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.linear() = R_eigen;
-    const cv::Mat t = translations[i].reshape(1, 3);
-    T.translation() = Eigen::Vector3d(t.at<double>(0), t.at<double>(1), t.at<double>(2));
-    eye.T_camera_board.push_back(T);
-  }
-  return eye;
-}
 
 std::vector<std::size_t> used_views(const std::vector<StereoView>& views) {
   std::vector<std::size_t> used;
@@ -189,7 +85,7 @@ bool reject_worst(std::vector<StereoView>& views, const std::vector<std::size_t>
   const auto worst = static_cast<std::size_t>(std::max_element(rms.begin(), rms.end()) - rms.begin());
   if (rms[worst] < std::max(config.min_rejected_rms_px, config.max_view_over_median * median)) return false;
   views[used[worst]].used = false;
-  views[used[worst]].reason = text(
+  views[used[worst]].reason = format_text(
       "fits with %.2f px, the median view with %.2f px: the board moved between the eyes' exposures, was "
       "bent, or "
       "a corner was mistaken",
@@ -281,26 +177,6 @@ void bind(Binder& b, StereoCalibrationConfig& c) {
   b.field("threads", c.threads, "views that are searched at a time", between(1, 64));
 }
 
-void find_boards(const Chessboard& board, std::vector<StereoView>& views, int threads) {
-  for (const StereoView& view : views) {
-    for (const cv::Mat* image : {&view.left, &view.right}) {
-      if (image->size() == views.front().left.size()) continue;
-      throw DataError(
-          view.name + ": the " + (image == &view.left ? "left" : "right") +
-          text(" image has %dx%d pixels, the first view's %dx%d; all have to be of one resolution, "
-               "recorded as they will be used",
-               image->cols, image->rows, views.front().left.cols, views.front().left.rows));
-    }
-  }
-  const auto step = static_cast<std::size_t>(std::max(1, threads));
-  for (std::size_t first = 0; first < views.size(); first += step) {
-    std::vector<std::future<void>> running;
-    for (std::size_t i = first; i < std::min(first + step, views.size()); ++i)
-      running.push_back(std::async(std::launch::async, [&board, &views, i] { find_board(board, views[i]); }));
-    for (std::future<void>& search : running) search.get();
-  }
-}
-
 StereoCalibration calibrate_stereo(const Chessboard& board, std::vector<StereoView> views,
                                    const StereoCalibrationConfig& config) {
   for (StereoView& view : views) view.used = view.reason.empty();
@@ -327,42 +203,6 @@ StereoCalibration calibrate_stereo(const Chessboard& board, std::vector<StereoVi
   result.coverage_left = coverage(result.views, true);
   result.coverage_right = coverage(result.views, false);
   return result;
-}
-
-std::string format_stereo_report(const StereoCalibration& calibration) {
-  const auto used = used_views(calibration.views).size();
-  std::string report = text("RMS %.3f px over %zu views\n", calibration.rms_px, used);
-  report += text("epipolar error after rectification: RMS %.3f px, largest %.2f px\n",
-                 calibration.epipolar_rms_px, calibration.epipolar_max_px);
-  report += text("image covered by corners: left %.0f %%, right %.0f %%\n\n", 100 * calibration.coverage_left,
-                 100 * calibration.coverage_right);
-  report += text("%-22s %12s %10s\n", "parameter", "value", "1 sigma");
-  for (const Estimate& e : calibration.estimates)
-    report += text("%-22s %12.5f %10.5f\n", e.name.c_str(), e.value, e.sigma);
-  report += text("\n%-28s %10s %10s\n", "view", "left [px]", "right [px]");
-  for (const StereoView& view : calibration.views) {
-    if (view.used)
-      report += text("%-28s %10.3f %10.3f\n", view.name.c_str(), view.rms_left_px, view.rms_right_px);
-  }
-  for (const StereoView& view : calibration.views) {
-    if (!view.used) report += view.name + " left out: " + view.reason + "\n";
-  }
-  return report;
-}
-
-cv::Mat draw_rectified(const StereoCalibration& calibration, const StereoView& view) {
-  constexpr int kLineDistance_px = 24;
-  const StereoRectifier rectifier(calibration.rig);
-  cv::Mat both;
-  cv::hconcat(rectifier.rectify_left(view.left), rectifier.rectify_right(view.right), both);
-  cv::Mat picture;
-  cv::cvtColor(both, picture, cv::COLOR_GRAY2BGR);
-  for (int v = kLineDistance_px / 2; v < picture.rows; v += kLineDistance_px) {
-    const bool even = v / kLineDistance_px % 2 == 0;
-    cv::line(picture, {0, v}, {picture.cols - 1, v},
-             even ? cv::Scalar(80, 220, 80) : cv::Scalar(60, 160, 255));
-  }
-  return picture;
 }
 
 }  // namespace alight

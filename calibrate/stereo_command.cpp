@@ -3,7 +3,6 @@
 
 #include <glob.h>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <spdlog/spdlog.h>
 
 #include "calibrate/commands.hpp"
@@ -11,6 +10,7 @@
 #include "calibrate/stereo_calibration.hpp"
 #include "cli/output_folder.hpp"
 #include "dataset/flight_log.hpp"
+#include "dataset/grey_image.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
@@ -51,13 +51,6 @@ std::vector<StereoView> views_of_files(const StereoOptions& options) {
     views.push_back(std::move(view));
   }
   return views;
-}
-
-cv::Mat to_grey(const cv::Mat& image) {
-  cv::Mat grey;
-  if (image.channels() == 1) return image.clone();
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
 }
 
 /// A rig of which only the topics are known; images may have any size.

@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <memory>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "cli/progress_bar.hpp"
 #include "dataset/dataset_builder.hpp"
 #include "dataset/dataset_merge.hpp"
+#include "dataset/dataset_statistics.hpp"
+#include "dataset/picture_file.hpp"
 #include "dataset/sample_picture.hpp"
 #include "geometry/frames.hpp"
 
@@ -133,6 +133,12 @@ int run_info(const InfoOptions& options) {
   std::printf("LiDAR window     %.2f s before .. %.2f s after the image\n\n", info.window_before_s,
               info.window_after_s);
   print_flights(dir, info);
+  const DatasetStatistics statistics = measure_dataset(dir, info);
+  std::printf("\n%s", format_statistics(statistics).c_str());
+  if (!options.picture.empty()) {
+    write_picture(options.picture, draw_statistics(statistics));
+    std::printf("\n%s\n", options.picture.c_str());
+  }
   return kExitOk;
 }
 
@@ -149,13 +155,7 @@ int run_view(const ViewOptions& options) {
   const SampleRow& row = rows[static_cast<std::size_t>(options.sample)];
   const cv::Mat picture =
       draw_sample(read_sample(dir, flight, row, true), flight.name + " " + std::to_string(row.index));
-  bool written = false;
-  try {
-    written = cv::imwrite(options.output, picture);
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (!written) throw DataError(options.output + ": cannot be written; name a .png in a folder that exists");
+  write_picture(options.output, picture);
   std::printf("%s\n", options.output.c_str());
   return kExitOk;
 }

@@ -17,6 +17,7 @@ struct BuildArguments {
 
 struct InfoOptions {
   std::string dataset;
+  std::string picture;  ///< empty: none
 };
 
 struct ViewOptions {

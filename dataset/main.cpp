@@ -1,3 +1,4 @@
+#include "dataset/align_command.hpp"
 #include "dataset/commands.hpp"
 #include "dataset/inspect_command.hpp"
 
@@ -10,7 +11,8 @@ int main(int argc, char** argv) {
       "data/demo\n"
       "  alight-dataset merge data/part_1 data/part_2 --output data/demo\n"
       "  alight-dataset info data/demo\n"
-      "  alight-dataset view data/demo --sample 12 --flight a --output sample.png");
+      "  alight-dataset view data/demo --sample 12 --flight a --output sample.png\n"
+      "  alight-dataset align a.bag --rig configs/rigs/paper.yaml");
 
   alight::BuildArguments build;
   CLI::App* build_app = app.add_subcommand("build", "Make a data set of ROS 1 bags");
@@ -39,9 +41,11 @@ int main(int argc, char** argv) {
       "Files are linked where the file system can, else copied; the parts stay.");
 
   alight::InfoOptions info;
-  CLI::App* info_app = app.add_subcommand("info", "Print what is in a data set");
+  CLI::App* info_app = app.add_subcommand("info", "Print what is in a data set and what it is like");
   info_app->add_option("dataset", info.dataset, "Folder of the data set")->required();
-  info_app->footer("Examples:\n  alight-dataset info data/demo");
+  info_app->add_option("-p,--picture", info.picture,
+                       "PNG to write: heights, density over accumulation time, coverage");
+  info_app->footer("Examples:\n  alight-dataset info data/demo --picture stats.png");
 
   alight::ViewOptions view;
   CLI::App* view_app =
@@ -58,8 +62,12 @@ int main(int argc, char** argv) {
   inspect_app->add_option("bag", inspected, "A ROS 1 bag")->required();
   inspect_app->footer("Examples:\n  alight-dataset inspect flight.bag");
 
+  alight::AlignOptions align;
+  const CLI::App* align_app = alight::add_align(app, align);
+
   return alight::run_tool(app, argc, argv, [&] {
     if (inspect_app->parsed()) return alight::run_inspect(inspected);
+    if (align_app->parsed()) return alight::run_align(align);
     if (build_app->parsed()) return alight::run_build(build);
     if (merge_app->parsed()) return alight::run_merge(merge);
     if (info_app->parsed()) return alight::run_info(info);

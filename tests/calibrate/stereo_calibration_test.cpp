@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "calibrate/chessboard.hpp"
+#include "calibrate/stereo_bundle.hpp"
 #include "configs/errors.hpp"
+#include "geometry/frames.hpp"
 
 namespace alight {
 namespace {
@@ -65,6 +67,81 @@ TEST(StereoCalibration, RealChessboardsAsGoodAsOpenCv) {
   EXPECT_LT(result.epipolar_rms_px, 0.25);
 }
 
+/// Two fisheyes 0.1 m apart, slightly turned against each other.
+StereoBundle fisheyes() {
+  StereoBundle truth;
+  truth.left.intrinsics = {300, 302, 318, 242, 640, 480};
+  truth.left.distortion_model = DistortionModel::kEquidistant;
+  truth.left.distortion_coeffs = {0.02, -0.01, 0.004, -0.001};
+  truth.right = truth.left;
+  truth.right.intrinsics = {297, 298, 322, 238, 640, 480};
+  truth.right.distortion_coeffs = {0.015, -0.006, 0.001, 0.0005};
+  truth.T_right_left.translate(Eigen::Vector3d(-0.1, 0.001, -0.002));
+  truth.T_right_left.rotate(Eigen::AngleAxisd(0.01, Eigen::Vector3d(0.3, 0.9, 0.3).normalized()));
+  return truth;
+}
+
+/// Their corners of boards all over the image, 0.1 px of noise.
+std::vector<StereoView> fisheye_views(const StereoBundle& truth) {
+  cv::RNG random(17);
+  std::vector<StereoView> views;
+  for (int i = 0; i < 24; ++i) {
+    Eigen::Isometry3d T(
+        Eigen::Translation3d(0.18 * (i % 4 - 1.5), 0.13 * (i / 4 % 3 - 1), 0.3 + 0.04 * (i % 3)));
+    T.rotate(Eigen::AngleAxisd(random.uniform(-0.6, 0.6), Eigen::Vector3d::UnitX()));
+    T.rotate(Eigen::AngleAxisd(random.uniform(-0.6, 0.6), Eigen::Vector3d::UnitY()));
+    T = T * Eigen::Translation3d(-kBoard.centre());
+    StereoView view;
+    view.name = std::to_string(i);
+    view.left = view.right = cv::Mat::zeros(480, 640, CV_8UC1);
+    view.left_corners = project_board(kBoard, truth.left, T);
+    view.right_corners = project_board(kBoard, truth.right, truth.T_right_left * T);
+    for (Corners* corners : {&view.left_corners, &view.right_corners}) {
+      for (cv::Point2f& corner : *corners)
+        corner +=
+            cv::Point2f(static_cast<float>(random.gaussian(0.1)), static_cast<float>(random.gaussian(0.1)));
+    }
+    views.push_back(view);
+  }
+  return views;
+}
+
+TEST(StereoCalibration, FindsEquidistantLensesWithinTheirStandardDeviations) {
+  const StereoBundle truth = fisheyes();
+  StereoCalibrationConfig config;
+  config.model = DistortionModel::kEquidistant;
+  const StereoCalibration result = calibrate_stereo(kBoard, fisheye_views(truth), config);
+  EXPECT_NEAR(result.rms_px, 0.1 * std::sqrt(2.0), 0.02);
+  EXPECT_EQ(result.rig.cam0.camera.distortion_model, DistortionModel::kEquidistant);
+  std::vector<double> expected;
+  for (const Camera* camera : {&truth.left, &truth.right}) {
+    const PinholeIntrinsics& k = camera->intrinsics;
+    expected.insert(expected.end(), {k.fx_px, k.fy_px, k.cx_px, k.cy_px});
+    expected.insert(expected.end(), camera->distortion_coeffs.begin(), camera->distortion_coeffs.end());
+  }
+  ASSERT_GE(result.estimates.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Estimate& e = result.estimates[i];
+    EXPECT_LT(std::abs(e.value - expected[i]), 4 * e.sigma) << e.name;
+    EXPECT_GT(e.sigma, 0) << e.name;
+  }
+  const Eigen::Isometry3d off = truth.T_right_left.inverse() * result.rig.T_cam1_cam0;
+  EXPECT_LT(off.translation().norm(), 5e-4);
+  EXPECT_LT(to_degrees(Eigen::AngleAxisd(off.linear()).angle()), 0.1);
+  EXPECT_LT(result.epipolar_rms_px, 0.25);
+}
+
+TEST(StereoCalibration, LeavesOutAViewThatFitsFarWorseAndSaysSo) {
+  std::vector<StereoView> views = fisheye_views(fisheyes());
+  for (cv::Point2f& corner : views[5].right_corners)
+    corner.x += 3;  // the board moved between the eyes' exposures
+  StereoCalibrationConfig config;
+  config.model = DistortionModel::kEquidistant;
+  const StereoCalibration result = calibrate_stereo(kBoard, views, config);
+  EXPECT_FALSE(result.views[5].used);
+  EXPECT_THAT(format_stereo_report(result), HasSubstr("5 left out: fits with"));
+}
+
 TEST(StereoCalibration, RefusesMixedResolutions) {
   std::vector<StereoView> views(2);
   views[0].left = views[0].right = views[1].left = cv::Mat::zeros(48, 64, CV_8UC1);
@@ -89,6 +166,22 @@ TEST(StereoCalibration, NamesViewsWithoutABoard) {
   } catch (const DataError& e) {
     EXPECT_THAT(e.what(), HasSubstr("only 0 of 6 views are usable"));
     EXPECT_THAT(e.what(), HasSubstr("fifth: both eyes: no chessboard of 9x6 inner corners found"));
+  }
+}
+
+TEST(StereoCalibration, NamesTheEyeThatSeesNoBoard) {
+  std::vector<StereoView> views = real_views();
+  if (views.empty()) GTEST_SKIP() << "opencv-doc is not installed";
+  views.resize(2);
+  for (StereoView& view : views)
+    view.left = cv::Mat(view.left.size(), CV_8UC1, cv::Scalar(90));  // a cap on the lens
+  find_boards(kBoard, views, 2);
+  try {
+    calibrate_stereo(kBoard, views, {});
+    FAIL() << "nothing was thrown";
+  } catch (const DataError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("only 0 of 2 views are usable"));
+    EXPECT_THAT(e.what(), HasSubstr("01.jpg: left: no chessboard of 9x6 inner corners found"));
   }
 }
 

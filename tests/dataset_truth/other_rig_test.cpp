@@ -199,7 +199,7 @@ class OtherRig : public ::testing::Test {
     const fs::path file = folder_ / (data.stem().string() + ".yaml");
     std::ofstream(file) << yaml;
     const auto config = load_config<DatasetConfig>(file);
-    return build_dataset(config, load_rig(find_rig_file(config.rig, file)), {log}, data);
+    return build_dataset(config, load_rig(find_rig_file(config.rig, file)), {log}, data).info;
   }
 
   fs::path folder_ = fs::temp_directory_path() / ("alight_other_rig_" + std::to_string(getpid()));

@@ -31,8 +31,9 @@ TEST_P(EveryTool, VersionIsPrinted) {
 
 INSTANTIATE_TEST_SUITE_P(Tools, EveryTool,
                          ::testing::Values("alight-sim", "alight-sim land", "alight-sim campaign",
-                                           "alight-calibrate", "alight-calibrate lidar",
-                                           "alight-calibrate stereo", "alight-dataset", "alight-train",
+                                           "alight-calibrate", "alight-calibrate check",
+                                           "alight-calibrate lidar", "alight-calibrate stereo",
+                                           "alight-dataset", "alight-dataset align", "alight-train",
                                            "alight-evaluate", "alight-evaluate depth", "alight-evaluate self",
                                            "alight-export", "alight-infer"));
 

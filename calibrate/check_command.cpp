@@ -1,0 +1,65 @@
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "calibrate/commands.hpp"
+#include "calibrate/rig_check.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/progress_bar.hpp"
+
+namespace alight {
+namespace fs = std::filesystem;
+namespace {
+
+int exit_code(RigVerdict verdict) {
+  switch (verdict) {
+    case RigVerdict::kGood:
+      return kExitOk;
+    case RigVerdict::kMoved:
+      return kExitMoved;
+    case RigVerdict::kCannotTell:
+      break;
+  }
+  return kExitCannotTell;
+}
+
+FlightViews read_views(const CheckOptions& options, const Rig& rig, const RigCheckConfig& config) {
+  std::unique_ptr<ProgressBar> bar;
+  std::int64_t shown = 0;
+  return read_flight_views(
+      options.log, rig, config.log, config.views, [&](std::int64_t read, std::int64_t total) {
+        if (!bar)
+          bar = std::make_unique<ProgressBar>(fs::path(options.log).filename().string(), total, "messages");
+        bar->advance(read - shown);
+        shown = read;
+      });
+}
+
+}  // namespace
+
+int run_check(const CheckOptions& options) {
+  const auto config = load<RigCheckConfig>(options.config);
+  if (print_if_asked(options.config, config)) return kExitOk;
+  if (options.log.empty()) throw ConfigError("--log: is missing; name the bag of a flight");
+  if (options.rig.empty()) throw ConfigError("--rig: is missing; name the rig file to check");
+  const Rig rig = load_rig(options.rig);
+  std::optional<OutputFolder> report;
+  if (!options.report.empty()) report.emplace(options.report);
+  const FlightViews flight = read_views(options, rig, config);
+  const RigCheck check = check_rig(flight, config);
+  const std::string text = format_rig_check(check);
+  std::fputs(text.c_str(), stdout);
+  if (report) {
+    write_file_atomically(report->partial() / "report.txt", text);
+    write_file_atomically(report->partial() / "report.json", rig_check_json(check));
+    const fs::path picture = report->partial() / "edges.png";
+    if (!cv::imwrite(picture.string(), draw_rig_check(flight, check, config)))
+      throw DataError(picture.string() + ": cannot be written");
+    report->commit();
+  }
+  return exit_code(check.verdict);
+}
+
+}  // namespace alight

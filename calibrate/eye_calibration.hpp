@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+#include "calibrate/chessboard.hpp"
+#include "calibrate/stereo_calibration.hpp"
+#include "geometry/camera.hpp"
+
+namespace alight {
+
+/// One camera and where it saw the board.
+struct Eye {
+  Camera camera;
+  std::vector<Eigen::Isometry3d> T_camera_board;  ///< of each view
+};
+
+/// One camera alone, by OpenCV: the start of calibrate_stereo. @param corners of each view
+Eye calibrate_eye(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size,
+                  const StereoCalibrationConfig& config);
+
+}  // namespace alight
