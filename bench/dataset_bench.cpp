@@ -65,9 +65,8 @@ class StoredImages {
       }
     }
     bag.select(topics);
-    std::string topic;
-    alight::RawMessage raw;
-    while (bag.next(topic, raw)) {
+    while (const auto message = bag.next()) {
+      const alight::RawMessage& raw = message->raw;
       const std::int64_t t_ns = std::get<alight::CameraImage>(*decoder_->decode(raw, {})).t_ns;
       images_[t_ns].emplace_back(raw.data, raw.data + raw.size);
     }

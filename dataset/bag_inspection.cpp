@@ -4,14 +4,10 @@
 #include <iterator>
 #include <map>
 #include <sstream>
-#include <tuple>
+#include <utility>
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
-#include "dataset/bag_access.hpp"
-#include "dataset/bag_check.hpp"
 #include "dataset/bag_index.hpp"
+#include "dataset/bag_messages.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -45,11 +41,11 @@ ClockOffset summarize(std::vector<double> offsets_s) {
 /// One topic while the bag is read.
 class TopicInspection {
  public:
-  explicit TopicInspection(const rosbag::ConnectionInfo& connection)
-      : has_header_(begins_with_header(connection.msg_def)) {
+  explicit TopicInspection(const BagConnection& connection)
+      : has_header_(begins_with_header(connection.definition)) {
     report_.topic = connection.topic;
-    report_.type = connection.datatype;
-    report_.md5 = connection.md5sum;
+    report_.type = connection.type;
+    report_.md5 = connection.md5;
     for (const Decoder& decoder : decoders()) {
       if (decoder.type != report_.type) continue;
       report_.known_type = true;
@@ -60,16 +56,13 @@ class TopicInspection {
     }
   }
 
-  void add(const rosbag::MessageInstance& message) {
-    const auto t_ns = static_cast<std::int64_t>(message.getTime().toNSec());
+  void add(const RawMessage& raw) {
+    const std::int64_t t_ns = raw.receive_ns;
     if (report_.messages == 0) report_.first_ns = t_ns;
     if (report_.messages > 0) add_gap(t_ns);
     report_.last_ns = t_ns;
     ++report_.messages;
     if (!has_header_ && decoders_.empty()) return;
-    sink_.bytes.clear();
-    message.write(sink_);
-    const RawMessage raw{sink_.bytes.data(), sink_.bytes.size(), t_ns};
     if (has_header_) add_stamp(raw);
     for (std::size_t i = 0; i < decoders_.size(); ++i) try_role(raw, *decoders_[i], report_.roles[i]);
   }
@@ -139,7 +132,6 @@ class TopicInspection {
   std::vector<const Decoder*> decoders_;
   std::vector<double> offsets_s_;
   std::vector<double> gaps_s_;
-  ByteSink sink_;
 };
 
 }  // namespace
@@ -156,36 +148,27 @@ const RoleTrial* TopicReport::serves_as(LogRole role) const {
 }
 
 BagReport inspect_bag(const std::filesystem::path& path) {
-  require_file(path);
-  check_bag_structure(path);
-  return with_bag_errors(path, [&] {
-    using Key = std::tuple<std::string, std::string, std::string>;  // topic, type, checksum
-    rosbag::Bag bag(path.string(), rosbag::bagmode::Read);
-    rosbag::View view(bag);
-    BagReport report;
-    report.path = path;
-    std::map<Key, TopicInspection> readers;
-    const auto reader_of = [&](const rosbag::ConnectionInfo& c) -> TopicInspection& {
-      return readers.try_emplace({c.topic, c.datatype, c.md5sum}, c).first->second;
-    };
-    for (const rosbag::ConnectionInfo* connection : view.getConnections()) reader_of(*connection);
-    for (const rosbag::MessageInstance& message : view) {
-      readers.at({message.getTopic(), message.getDataType(), message.getMD5Sum()}).add(message);
-      const auto t_ns = static_cast<std::int64_t>(message.getTime().toNSec());
-      if (report.messages == 0) report.begin_ns = t_ns;
-      report.end_ns = t_ns;
-      ++report.messages;
-    }
-    report.without_time = indexed_messages(path);
-    for (auto& [key, reader] : readers) {
-      report.topics.push_back(reader.finish());
-      const auto indexed = report.without_time.find(report.topics.back().topic);
-      if (indexed != report.without_time.end()) indexed->second -= report.topics.back().messages;
-    }
-    for (auto at = report.without_time.begin(); at != report.without_time.end();)
-      at = at->second > 0 ? std::next(at) : report.without_time.erase(at);
-    return report;
-  });
+  using Key = std::pair<std::string, std::string>;  // topic, checksum
+  BagMessages bag(path);
+  BagReport report;
+  report.path = path;
+  report.lost_bytes = bag.lost_bytes();
+  std::map<Key, TopicInspection> readers;
+  for (const BagConnection& c : bag.connections()) readers.try_emplace({c.topic, c.md5}, c);
+  report.messages = bag.select_all();
+  report.begin_ns = bag.begin_ns();
+  report.end_ns = bag.end_ns();
+  while (const auto message = bag.next())
+    readers.at({message->connection->topic, message->connection->md5}).add(message->raw);
+  report.without_time = indexed_messages(path);
+  for (auto& [key, reader] : readers) {
+    report.topics.push_back(reader.finish());
+    const auto indexed = report.without_time.find(report.topics.back().topic);
+    if (indexed != report.without_time.end()) indexed->second -= report.topics.back().messages;
+  }
+  for (auto at = report.without_time.begin(); at != report.without_time.end();)
+    at = at->second > 0 ? std::next(at) : report.without_time.erase(at);
+  return report;
 }
 
 }  // namespace alight

@@ -58,12 +58,13 @@ struct BagReport {
   std::int64_t begin_ns = 0;  ///< receive times; 0 without messages
   std::int64_t end_ns = 0;
   std::vector<TopicReport> topics;  ///< by name
+  std::uint64_t lost_bytes = 0;     ///< at the end of a bag without index
   /// Messages that the index has and that have no time, so that no tool reads them: topic -> count.
   std::map<std::string, std::int64_t> without_time;
 };
 
 /// Reads a bag once, whatever is in it; a bag without messages is one, too.
-/// @throws DataError if the file is missing, empty, without index, cut off or damaged
+/// @throws DataError if the file is missing, empty, cut off or damaged
 BagReport inspect_bag(const std::filesystem::path& path);
 
 }  // namespace alight

@@ -1,5 +1,7 @@
 #include "dataset/bag_messages.hpp"
 
+#include <map>
+
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <spdlog/spdlog.h>
@@ -19,7 +21,7 @@ class BagMessages::Source {
   virtual std::int64_t select(const std::set<std::string>& topics) = 0;
   virtual std::int64_t begin_ns() const = 0;
   virtual std::int64_t end_ns() const = 0;
-  virtual bool next(std::string& topic, RawMessage& raw) = 0;
+  virtual std::optional<BagMessage> next() = 0;
 };
 
 namespace {
@@ -30,8 +32,10 @@ class IndexedSource : public BagMessages::Source {
  public:
   explicit IndexedSource(const fs::path& path) : bag_(path.string(), rosbag::bagmode::Read) {
     rosbag::View all(bag_);
-    for (const rosbag::ConnectionInfo* connection : all.getConnections())
-      connections_.push_back({connection->topic, connection->datatype, connection->md5sum});
+    for (const rosbag::ConnectionInfo* c : all.getConnections()) {
+      if (index_.emplace(Key{c->topic, c->md5sum}, connections_.size()).second)
+        connections_.push_back({c->topic, c->datatype, c->md5sum, c->msg_def});
+    }
   }
 
   const std::vector<BagConnection>& connections() const override { return connections_; }
@@ -48,20 +52,23 @@ class IndexedSource : public BagMessages::Source {
   }
   std::int64_t end_ns() const override { return view_->size() > 0 ? nanoseconds(view_->getEndTime()) : 0; }
 
-  bool next(std::string& topic, RawMessage& raw) override {
-    if (at_ == view_->end()) return false;
+  std::optional<BagMessage> next() override {
+    if (at_ == view_->end()) return std::nullopt;
     const rosbag::MessageInstance& message = *at_;
     sink_.bytes.clear();
     message.write(sink_);
-    topic = message.getTopic();
-    raw = {sink_.bytes.data(), sink_.bytes.size(), nanoseconds(message.getTime())};
+    const std::size_t index = index_.at({message.getTopic(), message.getMD5Sum()});
+    const RawMessage raw{sink_.bytes.data(), sink_.bytes.size(), nanoseconds(message.getTime())};
     ++at_;
-    return true;
+    return BagMessage{&connections_[index], raw};
   }
 
  private:
+  using Key = std::pair<std::string, std::string>;  // topic, checksum
+
   rosbag::Bag bag_;
-  std::vector<BagConnection> connections_;
+  std::vector<BagConnection> connections_;  // one of several publishers of a topic
+  std::map<Key, std::size_t> index_;
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator at_;
   ByteSink sink_;
@@ -94,13 +101,12 @@ class SalvageSource : public BagMessages::Source {
   std::int64_t begin_ns() const override { return selected_.empty() ? 0 : selected_.front().receive_ns; }
   std::int64_t end_ns() const override { return selected_.empty() ? 0 : selected_.back().receive_ns; }
 
-  bool next(std::string& topic, RawMessage& raw) override {
-    if (at_ == selected_.size()) return false;
+  std::optional<BagMessage> next() override {
+    if (at_ == selected_.size()) return std::nullopt;
     const BagSalvage::Message& message = selected_[at_++];
     const std::string_view data = salvage_.data(message);
-    topic = salvage_.connection(message).topic;
-    raw = {reinterpret_cast<const std::uint8_t*>(data.data()), data.size(), message.receive_ns};
-    return true;
+    return BagMessage{&salvage_.connection(message),
+                      {reinterpret_cast<const std::uint8_t*>(data.data()), data.size(), message.receive_ns}};
   }
 
  private:
@@ -126,8 +132,7 @@ BagMessages::BagMessages(const fs::path& path) : path_(path) {
     } else {
       source_ = std::make_unique<SalvageSource>(path);
     }
-    if (select(topics_of(connections())) == 0)
-      throw DataError(path.string() + ": holds no messages; record it again");
+    select_all();
   });
 }
 BagMessages::~BagMessages() = default;
@@ -144,8 +149,10 @@ std::int64_t BagMessages::select(const std::set<std::string>& topics) {
   return with_bag_errors(path_, [&] { return source_->select(topics); });
 }
 
-bool BagMessages::next(std::string& topic, RawMessage& raw) {
-  return with_bag_errors(path_, [&] { return source_->next(topic, raw); });
+std::int64_t BagMessages::select_all() { return select(topics_of(connections())); }
+
+std::optional<BagMessage> BagMessages::next() {
+  return with_bag_errors(path_, [&] { return source_->next(); });
 }
 
 }  // namespace alight

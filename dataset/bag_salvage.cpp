@@ -70,7 +70,7 @@ void BagSalvage::add_connection(const BagFields& fields, std::string_view data, 
   if (id.size() != 4) file_.fail(at, "a connection without number");
   const BagFields description = file_.parse_fields(data, at);
   BagConnection connection{text_of(fields, "topic"), text_of(description, "type"),
-                           text_of(description, "md5sum")};
+                           text_of(description, "md5sum"), text_of(description, "message_definition")};
   if (connection.topic.empty() || connection.type.empty())
     file_.fail(at, "a connection without topic or type");
   connections_[read_u32(id, 0)] = std::move(connection);

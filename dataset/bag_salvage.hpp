@@ -13,6 +13,7 @@ struct BagConnection {
   std::string topic;
   std::string type;  ///< "sensor_msgs/Image"
   std::string md5;   ///< of the message definition
+  std::string definition;
 };
 
 /// A bag without index (its recorder was killed), read as far as its chunks are whole. The messages come in the order of

@@ -64,6 +64,7 @@ struct FlightLog::Impl {
 };
 
 void FlightLog::Impl::open() {
+  if (bag.select_all() == 0) throw DataError(path.string() + ": holds no messages; record it again");
   for (const BagConnection& connection : bag.connections()) present[connection.topic] = connection.type;
   for (const SensorTopic& wanted : topics) choose(wanted);
   std::set<std::string> read;
@@ -114,14 +115,14 @@ std::string FlightLog::Impl::topics_present() const {
 }
 
 bool FlightLog::Impl::read_message() {
-  std::string topic;
-  RawMessage raw;
-  if (!bag.next(topic, raw)) {
+  const std::optional<BagMessage> message = bag.next();
+  if (!message) {
     finish();
     return false;
   }
-  receive_ns = raw.receive_ns;
-  for (const Reading& reading : readings.at(topic)) decode(reading, raw, topic);
+  receive_ns = message->raw.receive_ns;
+  const std::string& topic = message->connection->topic;
+  for (const Reading& reading : readings.at(topic)) decode(reading, message->raw, topic);
   ++consumed;
   return true;
 }

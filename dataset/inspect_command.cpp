@@ -95,6 +95,9 @@ void print_report(const BagReport& report) {
     print_trials(topic);
     print_frames(topic);
   }
+  if (report.lost_bytes > 0)
+    std::printf("the last %llu bytes cannot be read: the recorder was killed\n",
+                static_cast<unsigned long long>(report.lost_bytes));
   for (const auto& [topic, count] : report.without_time) {
     std::printf("%s: %lld more messages that cannot be read: their receive time is zero\n", topic.c_str(),
                 static_cast<long long>(count));

@@ -29,11 +29,10 @@ struct Content {
 
 std::vector<Content> content_of(BagMessages& bag) {
   std::vector<Content> all;
-  Content one;
-  RawMessage raw;
-  while (bag.next(one.topic, raw)) {
-    one.receive_ns = raw.receive_ns;
-    one.bytes.assign(reinterpret_cast<const char*>(raw.data), raw.size);
+  while (const auto message = bag.next()) {
+    const RawMessage& raw = message->raw;
+    const Content one{message->connection->topic, raw.receive_ns,
+                      std::string(reinterpret_cast<const char*>(raw.data), raw.size)};
     EXPECT_GE(one.receive_ns, all.empty() ? 0 : all.back().receive_ns);
     all.push_back(one);
   }
@@ -140,7 +139,9 @@ TEST(BagSalvage, NothingWholeIsAnError) {
   const fs::path path = folder.path() / "flight.bag";
   write_flight(path);
   write_bytes(path, without_index(read_bytes(path)).substr(0, 6000));
-  EXPECT_THAT(message_of<DataError>([&] { BagMessages bag(path); }), HasSubstr("holds no messages"));
+  EXPECT_EQ(BagMessages(path).select_all(), 0);
+  EXPECT_THAT(message_of<DataError>([&] { FlightLog log(path, small_rig(), {}); }),
+              HasSubstr("holds no messages"));
 }
 
 }  // namespace

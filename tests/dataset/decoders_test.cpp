@@ -1,6 +1,7 @@
 #include "dataset/messages/decoders.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <random>
 #include <set>
@@ -209,6 +210,18 @@ sensor_msgs::CompressedImage compressed(const std::string& extension, const cv::
   message.format = "whatever the driver writes";
   cv::imencode(extension, image, message.data);
   return message;
+}
+
+/// tests/fuzz/types.txt; of several names of one message, one is enough.
+TEST(Decoders, EveryDecodeFunctionHasAFuzzTarget) {
+  std::ifstream file(ALIGHT_SOURCE_DIR "/tests/fuzz/types.txt");
+  std::set<std::string> fuzzed;
+  for (std::string type; std::getline(file, type);) fuzzed.insert(type);
+  std::set<DecodeFunction> covered;
+  for (const Decoder& decoder : decoders()) {
+    if (fuzzed.count(decoder.type) != 0) covered.insert(decoder.decode);
+  }
+  for (const Decoder& decoder : decoders()) EXPECT_EQ(covered.count(decoder.decode), 1u) << decoder.type;
 }
 
 TEST(CompressedImageDecoder, JpegPixelsAreOpenCvs) {

@@ -44,13 +44,11 @@ TEST_F(RealBags, OnesOfAnotherRobotNameTheTopicsTheyHave) {
 
 TEST_F(RealBags, OneWhoseRecorderWasKilledIsReadAsFarAsItGoes) {
   BagMessages killed(kData / "bag_broken_cases" / "test_unindexed.bag");
-  std::string topic;
-  RawMessage raw;
   int messages = 0;
   std::int64_t last_ns = 0;
-  while (killed.next(topic, raw)) {
-    EXPECT_GE(raw.receive_ns, last_ns);
-    last_ns = raw.receive_ns;
+  while (const auto message = killed.next()) {
+    EXPECT_GE(message->raw.receive_ns, last_ns);
+    last_ns = message->raw.receive_ns;
     ++messages;
   }
   EXPECT_EQ(messages, 14);  // as many as in test_sample.bag, of which it is a copy
@@ -60,11 +58,9 @@ TEST_F(RealBags, TheThreeCompressionsHoldTheSameMessages) {
   const auto content = [](const char* file) {
     BagMessages bag(kData / "bag_same_content_none_bz2_lz4" / file);
     std::vector<std::string> all;
-    std::string topic;
-    RawMessage raw;
-    while (bag.next(topic, raw))
-      all.push_back(topic + std::to_string(raw.receive_ns) +
-                    std::string(reinterpret_cast<const char*>(raw.data), raw.size));
+    while (const auto message = bag.next())
+      all.push_back(message->connection->topic + std::to_string(message->raw.receive_ns) +
+                    std::string(reinterpret_cast<const char*>(message->raw.data), message->raw.size));
     return all;
   };
   const auto plain = content("example.bag");

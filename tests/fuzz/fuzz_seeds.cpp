@@ -36,13 +36,10 @@ bool has_decoder(const std::string& type) {
 
 void write_messages(const fs::path& bag_path, const fs::path& output) {
   BagMessages bag(bag_path);
-  std::map<std::string, std::string> types;
-  for (const BagConnection& connection : bag.connections()) types[connection.topic] = connection.type;
   std::map<std::string, int> written;
-  std::string topic;
-  RawMessage raw;
-  while (bag.next(topic, raw)) {
-    const std::string& type = types.at(topic);
+  while (const auto message = bag.next()) {
+    const auto& [topic, type, md5, definition] = *message->connection;
+    const RawMessage& raw = message->raw;
     if (!has_decoder(type) || raw.size > kMaxSeedBytes || written[topic]++ >= kSeedsATopic) continue;
     const fs::path folder = output / folder_of(type);
     fs::create_directories(folder);
