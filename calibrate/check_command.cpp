@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <memory>
 #include <optional>
 
 #include <opencv2/imgcodecs.hpp>
@@ -7,7 +6,6 @@
 #include "calibrate/commands.hpp"
 #include "calibrate/rig_check.hpp"
 #include "cli/output_folder.hpp"
-#include "cli/progress_bar.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
@@ -25,18 +23,6 @@ int exit_code(RigVerdict verdict) {
   return kExitCannotTell;
 }
 
-FlightViews read_views(const CheckOptions& options, const Rig& rig, const RigCheckConfig& config) {
-  std::unique_ptr<ProgressBar> bar;
-  std::int64_t shown = 0;
-  return read_flight_views(
-      options.log, rig, config.log, config.views, [&](std::int64_t read, std::int64_t total) {
-        if (!bar)
-          bar = std::make_unique<ProgressBar>(fs::path(options.log).filename().string(), total, "messages");
-        bar->advance(read - shown);
-        shown = read;
-      });
-}
-
 }  // namespace
 
 int run_check(const CheckOptions& options) {
@@ -47,7 +33,7 @@ int run_check(const CheckOptions& options) {
   const Rig rig = load_rig(options.rig);
   std::optional<OutputFolder> report;
   if (!options.report.empty()) report.emplace(options.report);
-  const FlightViews flight = read_views(options, rig, config);
+  const FlightViews flight = read_flight_views_with_bar(options.log, rig, config.log, config.views);
   const RigCheck check = check_rig(flight, config);
   const std::string text = format_rig_check(check);
   std::fputs(text.c_str(), stdout);

@@ -13,22 +13,12 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kBlocks = 20;  // stretches of the flight, for the scatter of the result
 constexpr double kNeighbourhood_deg = 0.3;
 constexpr double kRollNeighbourhood_deg = 0.8;
 constexpr double kNeighbourhood_m = 0.1;
 constexpr double kSharper = 0.5;  // the neighbourhood of the second climb
 
 double total(const std::vector<double>& scores) { return std::accumulate(scores.begin(), scores.end(), 0.0); }
-
-/// Views that follow each other share LiDAR points and what they look at.
-VectorXd in_blocks(const std::vector<double>& scores) {
-  const std::size_t blocks = std::min<std::size_t>(kBlocks, scores.size());
-  VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(blocks));
-  for (std::size_t i = 0; i < scores.size(); ++i)
-    sums[static_cast<Eigen::Index>(i * blocks / scores.size())] += scores[i];
-  return sums;
-}
 
 /// Widely, not to be caught by a bump, then sharply, because a wide hill need not be even.
 ScorePeak climb_twice(const BlockScores& scores, const VectorXd& start, const VectorXd& step) {

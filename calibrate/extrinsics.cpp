@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibrate/mounting_search.hpp"
-#include "calibrate/text_format.hpp"
+#include "cli/text_format.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 

@@ -8,7 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "calibrate/text_format.hpp"
+#include "cli/text_format.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "calibrate/text_format.hpp"
+#include "cli/text_format.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calibrate/rig_check.hpp"
-#include "calibrate/text_format.hpp"
+#include "cli/text_format.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

@@ -9,7 +9,7 @@
 #include "calibrate/eye_calibration.hpp"
 #include "calibrate/rigid_motion.hpp"
 #include "calibrate/stereo_bundle.hpp"
-#include "calibrate/text_format.hpp"
+#include "cli/text_format.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/stereo_rectification.hpp"

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calibrate/stereo_calibration.hpp"
-#include "calibrate/text_format.hpp"
+#include "cli/text_format.hpp"
 #include "geometry/stereo_rectification.hpp"
 
 namespace alight {

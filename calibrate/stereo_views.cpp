@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "calibrate/stereo_calibration.hpp"
-#include "calibrate/text_format.hpp"
+#include "cli/text_format.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {

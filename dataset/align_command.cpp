@@ -1,41 +1,20 @@
 #include "dataset/align_command.hpp"
 
 #include <cstdio>
-#include <filesystem>
-#include <memory>
 
-#include "cli/progress_bar.hpp"
+#include "cli/text_format.hpp"
 #include "configs/errors.hpp"
 #include "dataset/align_picture.hpp"
 #include "dataset/picture_file.hpp"
 #include "dataset/turn_search.hpp"
 
 namespace alight {
-namespace fs = std::filesystem;
 namespace {
-
-std::string text(const char* format, double a, double b = 0) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof(buffer), format, a, b);
-  return buffer;
-}
 
 std::string describe(const char* sensor, const ClockOffset& clock) {
   std::string line = std::string(sensor) + "  ";
   if (!clock.told) return line + "cannot be told: " + clock.reason + "\n";
-  return line + text("%+7.1f ms  +- %.1f ms (1 sigma)\n", 1e3 * clock.offset_s, 1e3 * clock.sigma_s);
-}
-
-FlightViews read_views(const AlignOptions& options, const Rig& rig, const ClockAlignmentConfig& config) {
-  std::unique_ptr<ProgressBar> bar;
-  std::int64_t shown = 0;
-  return read_flight_views(
-      options.log, rig, config.log, config.views, [&](std::int64_t read, std::int64_t total) {
-        if (!bar)
-          bar = std::make_unique<ProgressBar>(fs::path(options.log).filename().string(), total, "messages");
-        bar->advance(read - shown);
-        shown = read;
-      });
+  return line + format_text("%+7.1f ms  +- %.1f ms (1 sigma)\n", 1e3 * clock.offset_s, 1e3 * clock.sigma_s);
 }
 
 }  // namespace
@@ -44,22 +23,22 @@ std::string format_clock_alignment(const ClockAlignment& alignment, const Rig& r
   std::string report = "offset to the poses' clock, on top of the rig file's time shifts:\n";
   report += describe("camera", alignment.camera) + describe("LiDAR ", alignment.lidar);
   if (!alignment.turns.empty())
-    report += text("turns by images and by poses correlate by %.4f\n", alignment.correlation);
+    report += format_text("turns by images and by poses correlate by %.4f\n", alignment.correlation);
   if (alignment.stands_out > 0)
-    report +=
-        text("depth edges stand out on image edges by %.1f standard deviations (chance stays below %.1f)\n",
-             alignment.stands_out, kStandsOut);
+    report += format_text(
+        "depth edges stand out on image edges by %.1f standard deviations (chance stays below %.1f)\n",
+        alignment.stands_out, kStandsOut);
   if (!alignment.camera.told && !alignment.lidar.told) return report;
   report += "\nFor the rig file:\n";
   if (alignment.camera.told) {
-    report +=
-        text("cam0:\n  timeshift_cam_imu: %.4f\n", rig.cam0.timeshift_cam_imu_s + alignment.camera.offset_s);
+    report += format_text("cam0:\n  timeshift_cam_imu: %.4f\n",
+                          rig.cam0.timeshift_cam_imu_s + alignment.camera.offset_s);
     if (rig.cam1)
-      report += text("cam1:\n  timeshift_cam_imu: %.4f\n",
-                     rig.cam1->timeshift_cam_imu_s + alignment.camera.offset_s);
+      report += format_text("cam1:\n  timeshift_cam_imu: %.4f\n",
+                            rig.cam1->timeshift_cam_imu_s + alignment.camera.offset_s);
   }
   if (alignment.lidar.told && rig.lidar0)
-    report += text("lidar0:\n  timeshift: %.4f\n", rig.lidar0->timeshift_s + alignment.lidar.offset_s);
+    report += format_text("lidar0:\n  timeshift: %.4f\n", rig.lidar0->timeshift_s + alignment.lidar.offset_s);
   return report;
 }
 
@@ -83,7 +62,8 @@ int run_align(const AlignOptions& options) {
   if (options.log.empty()) throw ConfigError("the log is missing; name the bag of a flight");
   if (options.rig.empty()) throw ConfigError("--rig: is missing; name the rig file");
   const Rig rig = load_rig(options.rig);
-  const ClockAlignment alignment = align_clocks(read_views(options, rig, config), config);
+  const ClockAlignment alignment =
+      align_clocks(read_flight_views_with_bar(options.log, rig, config.log, config.views), config);
   std::fputs(format_clock_alignment(alignment, rig).c_str(), stdout);
   if (!options.picture.empty()) write_picture(options.picture, draw_clock_alignment(alignment));
   return alignment.camera.told && alignment.lidar.told ? kExitOk : kExitOffsetNotTold;

@@ -1,8 +1,8 @@
 #include "dataset/align_picture.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "cli/text_format.hpp"
 #include "dataset/plot_panel.hpp"
 #include "geometry/frames.hpp"
 
@@ -13,12 +13,6 @@ const cv::Scalar kInk(60, 60, 60);
 const cv::Scalar kImages(40, 40, 220);
 const cv::Scalar kPoses(200, 110, 30);
 
-std::string text(const char* format, double a, double b = 0) {
-  char buffer[120];
-  std::snprintf(buffer, sizeof(buffer), format, a, b);
-  return buffer;
-}
-
 void draw_scores(const cv::Mat& picture, const std::string& title, const ClockOffset& clock) {
   if (clock.scores.empty()) {
     PlotPanel(picture, title + ": cannot be told", {}, {});
@@ -27,14 +21,15 @@ void draw_scores(const cv::Mat& picture, const std::string& title, const ClockOf
   const auto [low, high] =
       std::minmax_element(clock.scores.begin(), clock.scores.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; });
-  PlotPanel panel(picture,
-                  title + (clock.told ? text(": %+.1f +- %.1f ms", 1e3 * clock.offset_s, 1e3 * clock.sigma_s)
-                                      : ": cannot be told"),
-                  {clock.scores.front().first, clock.scores.back().first}, {low->second, high->second});
+  PlotPanel panel(
+      picture,
+      title + (clock.told ? format_text(": %+.1f +- %.1f ms", 1e3 * clock.offset_s, 1e3 * clock.sigma_s)
+                          : ": cannot be told"),
+      {clock.scores.front().first, clock.scores.back().first}, {low->second, high->second});
   panel.line(clock.scores, kInk);
   if (clock.told) panel.mark(clock.offset_s, kImages);
-  panel.label_x(text("%+.0f ms", 1e3 * clock.scores.front().first),
-                text("%+.0f ms", 1e3 * clock.scores.back().first));
+  panel.label_x(format_text("%+.0f ms", 1e3 * clock.scores.front().first),
+                format_text("%+.0f ms", 1e3 * clock.scores.back().first));
 }
 
 /// The axis about which the camera turned most.
@@ -55,15 +50,15 @@ void draw_turns(const cv::Mat& picture, const std::vector<ViewTurn>& turns) {
     posed.emplace_back(turn.t_s, to_degrees(turn.posed_rad[axis]));
     largest = std::max({largest, std::abs(seen.back().second), std::abs(posed.back().second)});
   }
-  PlotPanel panel(
-      picture,
-      text("turn between images, up to %.2f deg, about the camera's ", largest) + std::string(1, "xyz"[axis]),
-      {0, turns.back().t_s}, {-largest, largest});
+  PlotPanel panel(picture,
+                  format_text("turn between images, up to %.2f deg, about the camera's ", largest) +
+                      std::string(1, "xyz"[axis]),
+                  {0, turns.back().t_s}, {-largest, largest});
   panel.line(posed, kPoses);
   panel.line(seen, kImages);
   panel.legend("by the images", kImages);
   panel.legend("by the poses", kPoses);
-  panel.label_x("0 s", text("%.0f s", turns.back().t_s));
+  panel.label_x("0 s", format_text("%.0f s", turns.back().t_s));
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include <Eigen/Dense>
 
+#include "cli/text_format.hpp"
 #include "dataset/edge_agreement.hpp"
 #include "dataset/score_peak.hpp"
 #include "dataset/turn_search.hpp"
@@ -19,17 +19,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kBlocks = 20;  // stretches of the flight, for the scatter of the result
 constexpr double kStep_s = 0.005;
 constexpr double kNeighbourhood_s = 0.015;
-
-VectorXd in_blocks(const std::vector<double>& scores) {
-  const std::size_t blocks = std::min<std::size_t>(kBlocks, scores.size());
-  VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(blocks));
-  for (std::size_t i = 0; i < scores.size(); ++i)
-    sums[static_cast<Eigen::Index>(i * blocks / scores.size())] += scores[i];
-  return sums;
-}
 
 /// Over the whole range in steps, then to the top of the hill.
 ClockOffset search(const BlockScores& scores, const ClockAlignmentConfig& config) {
@@ -48,12 +39,6 @@ ClockOffset search(const BlockScores& scores, const ClockAlignmentConfig& config
   result.told =
       peak.found && result.sigma_s <= config.max_sigma_s && std::abs(result.offset_s) <= config.max_offset_s;
   return result;
-}
-
-std::string text(const char* format, double a, double b) {
-  char buffer[300];
-  std::snprintf(buffer, sizeof(buffer), format, a, b);
-  return buffer;
 }
 
 /// Of all axes together, each without its mean (a mounting that is wrong adds one).
@@ -112,7 +97,7 @@ void align_camera(const FlightViews& flight, const ClockAlignmentConfig& config,
         std::max<double>(config.min_pairs, config.min_followed * static_cast<double>(flight.views.size()));
     if (static_cast<double>(residuals.pairs()) < wanted) {
       camera.told = false;
-      camera.reason = text(
+      camera.reason = format_text(
           "only %.0f images show what the poses expect of the one before, %.0f are needed: fly longer, in "
           "daylight, and "
           "check the topics of attitude and position",
@@ -128,13 +113,13 @@ void align_camera(const FlightViews& flight, const ClockAlignmentConfig& config,
   result.correlation = correlation(result.turns);
   if (result.correlation < config.min_correlation) {
     camera.told = false;
-    camera.reason = text(
+    camera.reason = format_text(
         "the turns that images and poses show hardly correlate (%.2f, at least %.2f are needed): fly curves, "
         "and check "
         "the attitude's topic and T_cam_imu",
         result.correlation, config.min_correlation);
   } else if (!camera.told) {
-    camera.reason = text(
+    camera.reason = format_text(
         "the vehicle turns too steadily (1 sigma %.1f ms, at most %.1f): fly curves to either side, with "
         "sharp "
         "beginnings and ends",
@@ -179,8 +164,8 @@ void align_lidar(const FlightViews& flight, const ClockAlignmentConfig& config, 
   const std::size_t points = edges.at(0, kMargin_px).points();
   if (static_cast<int>(points) < config.min_edges || flight.views.size() < 3) {
     lidar.reason =
-        text("only %.0f depth edges lie in images, %.0f are needed; fly over houses, trees or boulders",
-             static_cast<double>(points), config.min_edges);
+        format_text("only %zu depth edges lie in images, %d are needed; fly over houses, trees or boulders",
+                    points, config.min_edges);
     return;
   }
   lidar = search(
@@ -191,13 +176,13 @@ void align_lidar(const FlightViews& flight, const ClockAlignmentConfig& config, 
   result.stands_out = search_turns(edges.at(lidar.offset_s, kSearchMargin_px), kSearch_deg).stands_out;
   if (result.stands_out < kStandsOut) {
     lidar.told = false;
-    lidar.reason = text(
+    lidar.reason = format_text(
         "the LiDAR's depth edges lie on the images' edges no better than by chance (%.1f standard "
         "deviations, %.1f are "
         "needed): fly over more that stands up, in daylight, and check T_cam_lidar",
         result.stands_out, kStandsOut);
   } else if (!lidar.told) {
-    lidar.reason = text(
+    lidar.reason = format_text(
         "the depth edges lie on the images' edges as well at other offsets (1 sigma %.1f ms, at most %.1f): "
         "fly faster, "
         "with turns, over more that stands up",

@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <opencv2/imgproc.hpp>
 
+#include "cli/text_format.hpp"
 #include "dataset/plot_panel.hpp"
 
 namespace alight {
 namespace {
 
 constexpr std::array<double, 8> kTimes_s = {0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0};
-
-template <class... Values>
-std::string line(const char* format, Values... values) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof(buffer), format, values...);
-  return buffer;
-}
 
 void count_height(double height_m, DatasetStatistics& statistics) {
   if (!std::isfinite(height_m)) {
@@ -81,8 +74,8 @@ void draw_heights(const cv::Mat& picture, const DatasetStatistics& s) {
     const double from_m = s.height_step_m * static_cast<double>(i);
     panel.bar({from_m, from_m + s.height_step_m}, s.heights[i], {200, 140, 60});
   }
-  panel.label_x("0 m", line("%.0f m", top_m));
-  panel.label_y(line("up to %d", most));
+  panel.label_x("0 m", format_text("%.0f m", top_m));
+  panel.label_y(format_text("up to %d", most));
 }
 
 void draw_density(const cv::Mat& picture, const DatasetStatistics& s) {
@@ -92,8 +85,8 @@ void draw_density(const cv::Mat& picture, const DatasetStatistics& s) {
   PlotPoints points = {{0, 0}};
   points.insert(points.end(), s.density.begin(), s.density.end());
   panel.line(points, {40, 40, 220});
-  panel.label_x("0 s", line("%.1f s", end_s));
-  panel.label_y(line("up to %.1f %%", 100 * most));
+  panel.label_x("0 s", format_text("%.1f s", end_s));
+  panel.label_y(format_text("up to %.1f %%", 100 * most));
 }
 
 void draw_coverage(const cv::Mat& picture, const DatasetStatistics& s) {
@@ -127,21 +120,21 @@ DatasetStatistics measure_dataset(const std::filesystem::path& dir, const Datase
 }
 
 std::string format_statistics(const DatasetStatistics& s) {
-  std::string text = line("%-24s %8s\n", "height above take-off", "samples");
+  std::string text = format_text("%-24s %8s\n", "height above take-off", "samples");
   for (std::size_t i = 0; i < s.heights.size(); ++i) {
     const double from_m = s.height_step_m * static_cast<double>(i);
     if (s.heights[i] > 0)
-      text += line("%8.0f .. %-6.0f m       %8d\n", from_m, from_m + s.height_step_m, s.heights[i]);
+      text += format_text("%8.0f .. %-6.0f m       %8d\n", from_m, from_m + s.height_step_m, s.heights[i]);
   }
-  if (s.unknown_heights > 0) text += line("%-24s %8d\n", "unknown", s.unknown_heights);
-  text += line("\n%-24s %8s\n", "accumulated after image", "pixels");
+  if (s.unknown_heights > 0) text += format_text("%-24s %8d\n", "unknown", s.unknown_heights);
+  text += format_text("\n%-24s %8s\n", "accumulated after image", "pixels");
   for (const auto& [t_s, share] : s.density)
-    text += line("%8.1f s               %8.2f %%\n", t_s, 100 * share);
-  text += line(
+    text += format_text("%8.1f s               %8.2f %%\n", t_s, 100 * share);
+  text += format_text(
       "\npixels with depth over the whole window: %.2f %% in the median sample, %.2f to %.2f %% in eight of "
       "ten\n",
       100 * s.covered_median, 100 * s.covered_tenth, 100 * s.covered_ninetieth);
-  text += line("(depth maps of %d of %d samples, evenly spread)\n", s.measured, s.samples);
+  text += format_text("(depth maps of %d of %d samples, evenly spread)\n", s.measured, s.samples);
   return text;
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
+#include <memory>
 
+#include "cli/progress_bar.hpp"
 #include "configs/errors.hpp"
 #include "dataset/alignment.hpp"
 #include "dataset/flight_log.hpp"
@@ -92,6 +93,17 @@ FlightViews read_flight_views(const std::filesystem::path& log, const Rig& rig, 
     if (progress) progress(reader.consumed(), reader.summary().messages);
   }
   return collector.take();
+}
+
+FlightViews read_flight_views_with_bar(const std::filesystem::path& log, const Rig& rig,
+                                       const LogConfig& log_config, const FlightViewsConfig& config) {
+  std::unique_ptr<ProgressBar> bar;  // made when the log's length is known
+  std::int64_t shown = 0;
+  return read_flight_views(log, rig, log_config, config, [&](std::int64_t read, std::int64_t total) {
+    if (!bar) bar = std::make_unique<ProgressBar>(log.filename().string(), total, "messages");
+    bar->advance(read - shown);
+    shown = read;
+  });
 }
 
 std::vector<SeenPoint> seen_from(const FlightViews& flight, const FlightView& view,

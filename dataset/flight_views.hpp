@@ -49,6 +49,10 @@ FlightViews read_flight_views(const std::filesystem::path& log, const Rig& rig, 
                               const FlightViewsConfig& config,
                               const std::function<void(std::int64_t, std::int64_t)>& progress = {});
 
+/// As read_flight_views, with a progress bar.
+FlightViews read_flight_views_with_bar(const std::filesystem::path& log, const Rig& rig,
+                                       const LogConfig& log_config, const FlightViewsConfig& config);
+
 /// A LiDAR point and an image that sees it.
 struct SeenPoint {
   Eigen::Vector3d p_own = Eigen::Vector3d::Zero();  ///< in the left camera's frame at the point's own time

@@ -1,6 +1,6 @@
 #include "dataset/score_peak.hpp"
 
-#include <vector>
+#include <algorithm>
 
 #include <Eigen/Dense>
 
@@ -76,6 +76,15 @@ MatrixXd jackknife(const MatrixXd& coefficients, Index n) {
 }
 
 }  // namespace
+
+VectorXd in_blocks(const std::vector<double>& scores) {
+  constexpr std::size_t kBlocks = 20;
+  const std::size_t blocks = std::min(kBlocks, scores.size());
+  VectorXd sums = VectorXd::Zero(static_cast<Index>(blocks));
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    sums[static_cast<Index>(i * blocks / scores.size())] += scores[i];
+  return sums;
+}
 
 ScorePeak climb(const BlockScores& scores, const VectorXd& start, const VectorXd& step) {
   constexpr int kMaxRounds = 20;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -9,6 +10,10 @@ namespace alight {
 /// A score that is a sum over blocks of independent evidence (such as stretches of a flight): what each adds at a point
 /// of the searched space. [number of blocks]
 using BlockScores = std::function<Eigen::VectorXd(const Eigen::VectorXd& at)>;
+
+/// Scores of images, added up over at most 20 stretches of a flight: images that follow each other share LiDAR points and what
+/// they look at, and are not independent.
+Eigen::VectorXd in_blocks(const std::vector<double>& scores);
 
 /// A maximum of a score.
 struct ScorePeak {
