@@ -1,6 +1,7 @@
 #include "dataset/inspect_command.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <ctime>
 #include <string>
@@ -15,6 +16,14 @@ namespace {
 
 constexpr std::size_t kShownFrames = 12;
 
+/// Names out of a damaged bag may hold anything; a terminal would obey it.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
+  }
+  return text;
+}
+
 std::string utc(std::int64_t t_ns) {
   const std::time_t seconds = t_ns / kNanosecondsPerSecond;
   std::tm time{};
@@ -27,7 +36,7 @@ std::string utc(std::int64_t t_ns) {
 /// "camera, intrinsics"; else why it serves as nothing.
 std::string use_of(const TopicReport& topic) {
   if (!topic.known_type) return "- (unknown type, skipped)";
-  if (!topic.known_version) return "- (checksum " + topic.md5 + " is of another version, skipped)";
+  if (!topic.known_version) return "- (checksum " + printable(topic.md5) + " is of another version, skipped)";
   std::string roles;
   for (const RoleTrial& trial : topic.roles) {
     if (trial.measurements > 0) roles += (roles.empty() ? "" : ", ") + std::string(name(trial.role));
@@ -55,7 +64,7 @@ void print_trials(const TopicReport& topic) {
     if (trial.measurements < trial.tried) {
       std::printf("    %s: %d of the first %d messages hold no measurement%s%s\n", name(trial.role),
                   trial.tried - trial.measurements, trial.tried, trial.first_problem.empty() ? "" : ": ",
-                  trial.first_problem.c_str());
+                  printable(trial.first_problem).c_str());
     }
   }
 }
@@ -67,7 +76,7 @@ void print_frames(const TopicReport& topic) {
       std::printf("    and %zu more\n", topic.frames.size() - kShownFrames);
       return;
     }
-    std::printf("    transform: %s -> %s\n", parent.c_str(), child.c_str());
+    std::printf("    transform: %s -> %s\n", printable(parent).c_str(), printable(child).c_str());
   }
 }
 
@@ -87,7 +96,7 @@ void print_report(const BagReport& report) {
               static_cast<int>(type_width), "type", "messages", "rate_hz", "span_s", "gap_s");
   for (const TopicReport& topic : report.topics) {
     std::printf("%-*s  %-*s  %8lld  %9.2f  %9.2f  %7.3f  %s\n", static_cast<int>(topic_width),
-                topic.topic.c_str(), static_cast<int>(type_width), topic.type.c_str(),
+                printable(topic.topic).c_str(), static_cast<int>(type_width), printable(topic.type).c_str(),
                 static_cast<long long>(topic.messages), topic.rate_hz(),
                 to_seconds(topic.last_ns - topic.first_ns), topic.longest_gap_s, use_of(topic).c_str());
     print_offset(topic);
@@ -99,8 +108,8 @@ void print_report(const BagReport& report) {
     std::printf("the last %llu bytes cannot be read: the recorder was killed\n",
                 static_cast<unsigned long long>(report.lost_bytes));
   for (const auto& [topic, count] : report.without_time) {
-    std::printf("%s: %lld more messages that cannot be read: their receive time is zero\n", topic.c_str(),
-                static_cast<long long>(count));
+    std::printf("%s: %lld more messages that cannot be read: their receive time is zero\n",
+                printable(topic).c_str(), static_cast<long long>(count));
   }
 }
 
@@ -110,7 +119,7 @@ int run_inspect(const std::filesystem::path& bag) {
   const BagReport report = inspect_bag(bag);
   print_report(report);
   const std::string suggestion = suggest_configuration(report);
-  if (!suggestion.empty()) std::printf("\n%s", suggestion.c_str());
+  if (!suggestion.empty()) std::fputs(("\n" + suggestion).c_str(), stdout);
   return kExitOk;
 }
 

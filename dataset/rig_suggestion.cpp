@@ -141,6 +141,9 @@ const TopicReport* info_of(const BagReport& report, const TopicReport& image) {
   return chosen;
 }
 
+/// As YAML takes it back, whatever characters a damaged bag's topic holds.
+std::string quoted(const std::string& topic) { return config_detail::write(topic); }
+
 std::string stamp_line(const TopicReport& topic, const std::string& key) {
   if (!topic.offset || std::abs(topic.offset->median_s) < kOtherClock_s) return "";
   return key + format(": receive  # stamps are %.1f s from the receive times\n", -topic.offset->median_s);
@@ -154,7 +157,8 @@ std::string camera_lines(const BagReport& report, const TopicReport& image, bool
     const auto& camera = std::get<CameraDescription>(*info->serves_as(LogRole::kCameraInfo)->example).camera;
     const PinholeIntrinsics& k = camera.intrinsics;
     text += "  intrinsics: " + config_detail::write(std::vector<double>{k.fx_px, k.fy_px, k.cx_px, k.cy_px}) +
-            "  # from " + info->topic + "\n  distortion_model: " + lens_name(camera.distortion_model) +
+            "  # from " + quoted(info->topic) +
+            "\n  distortion_model: " + lens_name(camera.distortion_model) +
             "\n  distortion_coeffs: " + config_detail::write(camera.distortion_coeffs) + "\n";
   } else {
     text += "  intrinsics: FILL_IN\n  distortion_model: FILL_IN\n  distortion_coeffs: FILL_IN\n";
@@ -163,7 +167,7 @@ std::string camera_lines(const BagReport& report, const TopicReport& image, bool
   text += "  resolution: " + config_detail::write(std::vector<int>{picture.cols, picture.rows}) + "\n";
   text += right ? "  T_cn_cnm1: FILL_IN  # cam0 -> cam1\n" : "  T_cam_imu: FILL_IN  # imu -> cam0\n";
   text += stamp_line(image, "  stamp");
-  return text + "  rostopic: " + without_compressed(image.topic) + "\n";
+  return text + "  rostopic: " + quoted(without_compressed(image.topic)) + "\n";
 }
 
 std::string lidar_lines(const TopicReport& lidar) {
@@ -172,7 +176,7 @@ std::string lidar_lines(const TopicReport& lidar) {
     text += format("  scan_period_s: %.4g  # points have no time; the period is that of the messages\n",
                    lidar.rate_hz() > 0 ? 1 / lidar.rate_hz() : 0.0);
   }
-  return text + stamp_line(lidar, "  stamp") + "  rostopic: " + lidar.topic + "\n";
+  return text + stamp_line(lidar, "  stamp") + "  rostopic: " + quoted(lidar.topic) + "\n";
 }
 
 std::string log_lines(const BagReport& report) {
@@ -180,10 +184,10 @@ std::string log_lines(const BagReport& report) {
   const TopicReport* position = best(report, LogRole::kPosition);
   const TopicReport* height = best(report, LogRole::kHeight);
   std::string text = "log:\n";
-  text += "  attitude_topic: " + (attitude != nullptr ? attitude->topic : "FILL_IN") + "\n";
-  text += "  position_topic: " + (position != nullptr ? position->topic : "FILL_IN") + "\n";
+  text += "  attitude_topic: " + (attitude != nullptr ? quoted(attitude->topic) : "FILL_IN") + "\n";
+  text += "  position_topic: " + (position != nullptr ? quoted(position->topic) : "FILL_IN") + "\n";
   const bool named = height != nullptr && height->topic.find("height") != std::string::npos;
-  text += "  height_topic: " + (named ? height->topic : "none") + "\n";
+  text += "  height_topic: " + (named ? quoted(height->topic) : "none") + "\n";
   if (attitude != nullptr) text += stamp_line(*attitude, "  attitude_stamp");
   if (position != nullptr) text += stamp_line(*position, "  position_stamp");
   const bool tree = (attitude != nullptr && !attitude->frames.empty()) ||
