@@ -160,7 +160,7 @@ TEST_F(Faults, AHealthyFlightHasNoFindingAndAcceptsSafeSites) {
 }
 
 /// From a second and a half before the fault on, and one in every so many images.
-Messages shortened(const Messages& flight, std::int64_t fault_ns, int image_step) {
+[[maybe_unused]] Messages shortened(const Messages& flight, std::int64_t fault_ns, int image_step) {
   Messages few;
   int images = 0;
   for (const TimedMessage& timed : flight) {
