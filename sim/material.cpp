@@ -35,6 +35,7 @@ const std::array<MaterialProperties, static_cast<std::size_t>(Material::kCount)>
     {"glass", Rgb(.030F, .034F, .040F), Rgb(.045F, .050F, .055F), .05F, .5F, .03F, false, Pattern::kNone},
     {"metal", Rgb(.330F, .330F, .340F), Rgb(.270F, .270F, .280F), .06F, .8F, .45F, false, Pattern::kNone},
     {"water", Rgb(.022F, .036F, .036F), Rgb(.030F, .046F, .042F), .09F, .6F, .00F, false, Pattern::kNone},
+    {"snow", Rgb(.780F, .790F, .810F), Rgb(.765F, .777F, .802F), .012F, 1.2F, .70F, true, Pattern::kNone},
     // A calibration board: matt paper and the carbon black of a laser printer.
     {"board_white", Rgb(.800F, .800F, .790F), Rgb(.800F, .800F, .790F), 0.F, 1.F, .80F, false,
      Pattern::kNone},

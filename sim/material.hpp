@@ -29,6 +29,7 @@ enum class Material : std::uint8_t {
   kGlass,
   kMetal,
   kWater,
+  kSnow,
   kBoardWhite,
   kBoardBlack,
   kCount

@@ -109,18 +109,19 @@ void shade(const RayScene& scene, const RayBatch& rays, float pixel_rad, ShadedR
   Hits hits;
   for (std::size_t i = 0; i < rays.count; ++i) {
     out.distance[i] = ray_hits[i].distance;
-    out.light_rgb[i] = kSkyColour;
+    out.light_rgb[i] = kSkyColour * scene.world().daylight();
     out.key[i] = ShadedRays::kSky;
     if (ray_hits[i].distance <= 0) continue;
     hits.point[hits.count] = scene.surface_point(ray_hits[i], rays.origin(i), rays.direction(i));
     hits.ray[hits.count++] = i;
   }
   if (hits.count == 0) return;
+  const float daylight = scene.world().daylight();
   paint(rays, out, pixel_rad, hits);
   cast_shadows(scene, hits);
   for (std::size_t i = 0; i < hits.count; ++i) {
     const float up = 0.5F + 0.5F * hits.point[i].shading_normal.z();
-    const Vector3f light = kSunLight * hits.sun[i] + kSkyLight * up + kGroundLight * (1 - up);
+    const Vector3f light = daylight * (kSunLight * hits.sun[i] + kSkyLight * up + kGroundLight * (1 - up));
     out.light_rgb[hits.ray[i]] = hits.albedo[i].cwiseProduct(light);
     out.key[hits.ray[i]] = edge_key(hits.point[i], hits.sun[i] > 0);
   }

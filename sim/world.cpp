@@ -19,7 +19,8 @@ const std::vector<std::pair<std::string, Look>> kLookNames = {{"village", Look::
 Eigen::Vector3d sun_of(const WorldConfig& config) {
   Random random(static_cast<std::uint64_t>(config.seed), 1);
   // Drawn in any case: naming one angle does not change the other.
-  const double drawn_elevation_deg = random.uniform(30, 68);
+  const bool dusk = config.hard.has(Hardship::kDusk);
+  const double drawn_elevation_deg = dusk ? random.uniform(4, 9) : random.uniform(30, 68);
   const double drawn_azimuth_deg = random.uniform(0, 360);
   const double elevation = to_radians(config.sun_elevation_deg.value_or(drawn_elevation_deg));
   const double azimuth = to_radians(config.sun_azimuth_deg.value_or(drawn_azimuth_deg));
@@ -36,6 +37,10 @@ void bind(Binder& b, WorldConfig& c) {
   b.field("sun_elevation_deg", c.sun_elevation_deg, "none: drawn from the seed", between(5, 90));
   b.field("sun_azimuth_deg", c.sun_azimuth_deg, "counter-clockwise from east; none: drawn from the seed",
           between(-360, 360));
+  b.field("hard", c.hard.names,
+          "what makes the place harder: any of stones, kerbs, wires, slopes, clearings, snow, dusk");
+  b.check("hard", c.hard.unknown().empty(),
+          "\"" + c.hard.unknown() + "\" is none of stones, kerbs, wires, slopes, clearings, snow, dusk");
 }
 
 std::string to_string(Look look) {
@@ -52,6 +57,7 @@ std::vector<Look> all_looks() {
 }
 
 World::World(const WorldConfig& config) : size_m_(config.size_m), sun_direction_(sun_of(config)) {
+  if (config.hard.has(Hardship::kDusk)) daylight_ = 0.2F;
   WorldBuilder builder(config);
   builder.build();
   meshes_ = std::move(builder.meshes);

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "configs/config_reader.hpp"
+#include "sim/hardship.hpp"
 #include "sim/terrain.hpp"
 #include "sim/triangle_mesh.hpp"
 
@@ -22,6 +23,7 @@ struct WorldConfig {
   double size_m = 160;                      ///< side of the square that is built in detail
   std::optional<double> sun_elevation_deg;  ///< none: drawn from the seed
   std::optional<double> sun_azimuth_deg;    ///< counter-clockwise from east; none: drawn from the seed
+  Hardships hard;                           ///< none by default
 };
 void bind(Binder& b, WorldConfig& c);
 /// The look's name in YAML.
@@ -54,6 +56,8 @@ class World {
   double size_m() const { return size_m_; }
   /// Unit vector from the ground to the sun.
   const Eigen::Vector3d& sun_direction() const { return sun_direction_; }
+  /// Share of a clear day's light.
+  float daylight() const { return daylight_; }
 
  private:
   World() = default;
@@ -64,6 +68,7 @@ class World {
   std::optional<Terrain> terrain_;
   double size_m_ = 0;
   Eigen::Vector3d sun_direction_ = Eigen::Vector3d::UnitZ();
+  float daylight_ = 1;
 };
 
 }  // namespace alight::sim

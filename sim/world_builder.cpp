@@ -14,9 +14,9 @@ constexpr double kTwoPi = 6.283185307179586;
 WorldBuilder::WorldBuilder(const WorldConfig& config)
     : config_(config), look_(parameters(config.look)), plan_(config.size_m) {
   yaw_rad_ = stream(2).uniform(0, kTwoPi);
-  ground_ = add_surface(look_.ground);
-  ground_alt_ = add_surface(look_.ground_alt);
-  patches_ = add_surface(look_.patches);
+  ground_ = add_surface(ground_cover(look_.ground));
+  ground_alt_ = add_surface(ground_cover(look_.ground_alt));
+  patches_ = add_surface(ground_cover(look_.patches));
   shoulder_ = add_surface(look_.road_net == RoadNet::kGrid ? Material::kPaving : Material::kGravel);
   mud_ = add_surface(Material::kSoil, {0.6F, 0.6F, 0.6F});
 }
@@ -74,6 +74,7 @@ void WorldBuilder::build() {
   scatter_boulders();
   plant_small();
   grow_crops();
+  add_hardships();
   placements.push_back({add_mesh(std::move(fixed_)), Eigen::Affine3f::Identity(), Eigen::Vector3f::Ones()});
 }
 

@@ -94,6 +94,14 @@ class WorldBuilder {
   void set_lamps_and_bales();
   void string_power_line();
 
+  // What makes it hard.
+  void add_hardships();
+  void string_wires();
+  void lay_beds();
+  void scatter_stones();
+  Material ground_cover(Material material) const;
+  std::optional<Eigen::Vector2d> find_open(Random& random, double radius_m) const;
+
   std::uint16_t add_surface(Material material, const Eigen::Vector3f& tint = Eigen::Vector3f::Ones());
   std::uint16_t add_framed_surface(Material material, const Eigen::Vector2d& origin,
                                    const Eigen::Vector2d& u_axis, double width_m);
@@ -114,6 +122,7 @@ class WorldBuilder {
   std::vector<Road> roads_;
   std::vector<Area> areas_;
   std::vector<Levelling> levellings_;
+  std::vector<std::size_t> clearings_;  // which of the levellings are clearings
   std::vector<Pond> ponds_;
   std::vector<Mound> mounds_;
   std::vector<GroundRect> building_rects_;

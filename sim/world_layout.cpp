@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/frames.hpp"
 #include "sim/buildings.hpp"
 #include "sim/world_builder.hpp"
 
@@ -81,7 +82,8 @@ void WorldBuilder::lay_fields(Random& random) {
       const bool bare = kind < 0.55;
       const bool stubble = kind < 0.8;
       const Material material = bare ? Material::kSoil : (stubble ? Material::kDryGrass : Material::kGrass);
-      field.surface = add_framed_surface(material, field.rect.centre, u_axis, bare ? 0.75 : 0.0);
+      field.surface =
+          add_framed_surface(ground_cover(material), field.rect.centre, u_axis, bare ? 0.75 : 0.0);
       const float shade = random.uniformf(0.8, 1.25);
       surfaces[field.surface].tint_rgb = {shade * random.uniformf(0.9, 1.1), shade, shade};
       areas_.push_back(field);
@@ -104,7 +106,7 @@ void WorldBuilder::lay_blocks(Random& random) {
       const Eigen::Vector2d centre = street + cross_street + (u_axis + v_axis) * (0.5 * kBlock_m);
       block.rect = {centre, 0.5 * kBlock_m, 0.5 * kBlock_m, u_axis};
       const auto kind = kinds[static_cast<std::size_t>(random.below(static_cast<int>(kinds.size())))];
-      block.surface = add_framed_surface(kind, block.rect.centre, u_axis, 0.0);
+      block.surface = add_framed_surface(ground_cover(kind), block.rect.centre, u_axis, 0.0);
       areas_.push_back(block);
     }
   }
@@ -127,12 +129,14 @@ std::optional<Eigen::Vector2d> WorldBuilder::find_clearing(Random& random, doubl
 
 void WorldBuilder::lay_clearings() {
   Random random = stream(5);
-  const int count = scaled(look_.clearings);
+  const bool small = config_.hard.has(Hardship::kClearings);
+  const bool steep = config_.hard.has(Hardship::kSlopes);
+  const int count = scaled(look_.clearings) * (small ? 3 : 1);
   for (int i = 0; i < count; ++i) {
     // The first ones near the middle, where every flight passes.
     const double half_width_m = (i < 2 ? 0.2 : 0.45) * config_.size_m;
-    const double radius_m = random.uniform(4.5, 8.0);
-    const double slope = random.uniform(0, 0.05);
+    const double radius_m = small ? random.uniform(2.2, 4.0) : random.uniform(4.5, 8.0);
+    const double slope = steep ? std::tan(to_radians(random.uniform(6, 14))) : random.uniform(0, 0.05);
     const double downhill = random.uniform(0, 4 * kHalfPi);
     const auto at = find_clearing(random, radius_m, half_width_m);
     if (!at) continue;
@@ -141,6 +145,7 @@ void WorldBuilder::lay_clearings() {
     l.margin_m = radius_m;
     l.height_m = smooth_relief_m(*at);
     l.gradient = slope * heading(downhill);
+    clearings_.push_back(levellings_.size());
     levellings_.push_back(l);
     plan_.occupy_disc(*at, radius_m);
   }
