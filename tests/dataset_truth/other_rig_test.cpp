@@ -17,6 +17,7 @@
 
 #include "dataset/alignment.hpp"
 #include "dataset/dataset_builder.hpp"
+#include "dataset/flight_log.hpp"
 #include "dataset/messages/livox_custom_msg.hpp"
 #include "sim/flight_recorder.hpp"
 
