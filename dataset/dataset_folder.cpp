@@ -35,8 +35,9 @@ DatasetFolder::DatasetFolder(const fs::path& path) : path_(path) {
     existing_ = read_dataset_info(path_).flights;
     is_new_ = false;
   } else if (fs::exists(path_, code) && !(fs::is_directory(path_, code) && fs::is_empty(path_, code))) {
-    throw DataError(path_.string() +
-                    ": exists, is no data set and is not overwritten; remove it or name another folder");
+    throw DataError(
+        path_.string() +
+        ": exists already, is no data set and is not overwritten; remove it or name another folder");
   }
   fs::create_directories(partial_, code);
   if (code) throw DataError(partial_.string() + ": cannot be created: " + code.message());

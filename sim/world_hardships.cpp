@@ -64,6 +64,7 @@ void WorldBuilder::lay_beds() {
     const auto at = find_open(random, std::hypot(bed.half_u_m, bed.half_v_m));
     if (!at) continue;
     bed.centre = *at;
+    plan_.occupy_rect(bed, 0.3);
     const auto edge = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
       std::vector<StripSection> sections;
       const int steps = static_cast<int>(std::ceil((to - from).norm() / kStep_m));
