@@ -30,7 +30,9 @@ std::int64_t nanoseconds(const ros::Time& time) { return static_cast<std::int64_
 
 class IndexedSource : public BagMessages::Source {
  public:
-  explicit IndexedSource(const fs::path& path) : bag_(path.string(), rosbag::bagmode::Read) {
+  explicit IndexedSource(const fs::path& path) {
+    bag_.open(path.string(),
+              rosbag::bagmode::Read);  // its constructor would leak what it had read of a damaged bag
     rosbag::View all(bag_);
     for (const rosbag::ConnectionInfo* c : all.getConnections()) {
       if (index_.emplace(Key{c->topic, c->md5sum}, connections_.size()).second)

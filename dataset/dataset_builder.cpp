@@ -7,6 +7,8 @@
 #include <set>
 #include <thread>
 
+#include <opencv2/core/utility.hpp>
+
 #include "configs/errors.hpp"
 #include "dataset/content_hash.hpp"
 #include "dataset/dataset_folder.hpp"
@@ -28,6 +30,19 @@ void check_inputs(const Rig& rig, const std::vector<fs::path>& logs) {
     }
   }
 }
+
+/// OpenCV computes on the calling thread alone: its pool of threads does not live on in child processes, which would wait
+/// for it for ever, and the builds share out the cores themselves.
+class SerialOpenCv {
+ public:
+  SerialOpenCv() { cv::setNumThreads(1); }
+  ~SerialOpenCv() { cv::setNumThreads(before_); }
+  SerialOpenCv(const SerialOpenCv&) = delete;
+  SerialOpenCv& operator=(const SerialOpenCv&) = delete;
+
+ private:
+  int before_ = cv::getNumThreads();
+};
 
 int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
@@ -174,6 +189,7 @@ class DatasetBuild {
 BuildResult build_dataset(const DatasetConfig& config, const Rig& rig, const std::vector<fs::path>& logs,
                           const fs::path& output, const BuildOptions& options) {
   check_inputs(rig, logs);
+  const SerialOpenCv serial;
   return DatasetBuild(config, rig, logs, output, options).run();
 }
 
