@@ -31,8 +31,9 @@ void check_inputs(const Rig& rig, const std::vector<fs::path>& logs) {
   }
 }
 
-/// OpenCV computes on the calling thread alone: its pool of threads does not live on in child processes, which would wait
-/// for it for ever, and the builds share out the cores themselves.
+/// OpenCV computes on the calling thread alone. A process that forks while the threads of OpenCV's pool are busy hands its
+/// child locks that nobody gives back (the allocator of AddressSanitizer hangs on them), and the builds share out the cores
+/// themselves.
 class SerialOpenCv {
  public:
   SerialOpenCv() { cv::setNumThreads(1); }

@@ -1,6 +1,5 @@
 #include "dataset/dataset_builder.hpp"
 
-#include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include <gmock/gmock.h>
@@ -111,23 +110,6 @@ TEST_F(DatasetBuilder, TrueDepthIsLeftOutWhereTheRigNeedsRectification) {
   const DatasetInfo info = build(output_, rig);
   EXPECT_FALSE(info.flights[0].has_dense);
   EXPECT_FALSE(info.flights[0].has_right);
-}
-
-/// The threads of OpenCV's pool are not in a child process, and rectification would wait for them.
-TEST_F(DatasetBuilder, AProcessInWhichOpenCvHasThreadsBuilds) {
-  const int before = cv::getNumThreads();
-  cv::setNumThreads(4);
-  config_.limits.max_silence_s = 30;
-  Rig rig = small_mono_rig();
-  rig.cam0.camera.distortion_model = DistortionModel::kRadtan;
-  rig.cam0.camera.distortion_coeffs = {-0.1, 0.01, 0, 0};
-  for (int i = 0; i < 5; ++i) {
-    cv::parallel_for_(
-        cv::Range(0, 1000), [](const cv::Range&) {}, 8);
-    EXPECT_EQ(build(folder_.path() / std::to_string(i), rig).flights.at(0).samples, 30);
-  }
-  EXPECT_EQ(cv::getNumThreads(), 4);
-  cv::setNumThreads(before);
 }
 
 TEST_F(DatasetBuilder, AnInterruptedBuildLeavesNothing) {
