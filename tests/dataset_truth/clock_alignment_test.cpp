@@ -110,15 +110,18 @@ TEST_P(WrongTimeShifts, AreFoundWithinFiveMilliseconds) {
               1e3 * (alignment.camera.offset_s - camera_s), 1e3 * alignment.camera.sigma_s, 1e3 * lidar_s,
               1e3 * (alignment.lidar.offset_s - lidar_s), 1e3 * alignment.lidar.sigma_s);
 }
-INSTANTIATE_TEST_SUITE_P(Offsets, WrongTimeShifts,
-                         ::testing::Values(Offsets{-80, 20}, Offsets{-35, 80}, Offsets{0, 0},
-                                           Offsets{20, -80}, Offsets{80, -35}),
-                         [](const auto& info) {
-                           std::string name = "camera_" + std::to_string(info.param.camera_ms) + "_lidar_" +
-                                              std::to_string(info.param.lidar_ms);
-                           std::replace(name.begin(), name.end(), '-', 'm');
-                           return name;
-                         });
+#ifdef ALIGHT_CLOCKS_SHORT
+const auto kOffsets = ::testing::Values(Offsets{-80, 20});
+#else
+const auto kOffsets =
+    ::testing::Values(Offsets{-80, 20}, Offsets{-35, 80}, Offsets{0, 0}, Offsets{20, -80}, Offsets{80, -35});
+#endif
+INSTANTIATE_TEST_SUITE_P(Offsets, WrongTimeShifts, kOffsets, [](const auto& info) {
+  std::string name =
+      "camera_" + std::to_string(info.param.camera_ms) + "_lidar_" + std::to_string(info.param.lidar_ms);
+  std::replace(name.begin(), name.end(), '-', 'm');
+  return name;
+});
 
 TEST_F(ClockAlignmentTest, TheToolPrintsTheLinesForTheRigFile) {
   const fs::path picture = folder() / "clocks.png";
