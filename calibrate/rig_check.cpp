@@ -140,7 +140,7 @@ EdgeAgreement edge_agreement_of(const FlightViews& flight, const EdgeCheckConfig
   constexpr int kMargin_px =
       24;  // room for the search; points that leave the image would count as its border
   EdgeAgreement agreement(flight.rig.intrinsics, kMargin_px);
-  for (const FlightView& view : flight.views)
+  for (const ExposureView& view : flight.views)
     agreement.add_view(edge_strength(view.left), seen_from(flight, view, flight.edges, config.window_s));
   return agreement;
 }

@@ -24,7 +24,7 @@ struct Match {
   PatchMatch patch;
 };
 
-std::optional<Match> find_again(const FlightView& view, const RectifiedRig& rig, const Vector3d& p_camera) {
+std::optional<Match> find_again(const ExposureView& view, const RectifiedRig& rig, const Vector3d& p_camera) {
   if (p_camera.z() <= 0) return std::nullopt;
   const Vector3d p_right = rig.T_right_camera() * p_camera;
   const auto patch =

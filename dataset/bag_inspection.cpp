@@ -31,7 +31,7 @@ bool begins_with_header(const std::string& definition) {
   return false;
 }
 
-ClockOffset summarize(std::vector<double> offsets_s) {
+StampDelay summarize(std::vector<double> offsets_s) {
   const auto middle = offsets_s.begin() + static_cast<std::ptrdiff_t>(offsets_s.size() / 2);
   std::nth_element(offsets_s.begin(), middle, offsets_s.end());
   const auto [min, max] = std::minmax_element(offsets_s.begin(), offsets_s.end());

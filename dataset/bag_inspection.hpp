@@ -14,7 +14,7 @@
 namespace alight {
 
 /// Receive time minus header stamp over the messages of a topic: how late messages come, and how far clocks are apart.
-struct ClockOffset {
+struct StampDelay {
   double median_s = 0;
   double min_s = 0;
   double max_s = 0;
@@ -41,7 +41,7 @@ struct TopicReport {
   double longest_gap_s = 0;                              ///< between messages that follow one another
   std::int64_t longest_gap_ns = 0;                       ///< receive time of the message before it
   std::int64_t gaps = 0;                                 ///< longer than three times the median
-  std::optional<ClockOffset> offset;                     ///< none: the type has no header
+  std::optional<StampDelay> offset;                      ///< none: the type has no header
   bool known_type = false;                               ///< a decoder has its name
   bool known_version = false;                            ///< and its checksum
   std::vector<RoleTrial> roles;                          ///< what it could serve as

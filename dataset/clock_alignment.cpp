@@ -132,7 +132,7 @@ class ShiftedEdges {
  public:
   ShiftedEdges(const FlightViews& flight, std::int64_t camera_shift_ns, double window_s)
       : flight_(flight), views_(flight.views), window_s_(window_s) {
-    for (FlightView& view : views_) {
+    for (ExposureView& view : views_) {
       strengths_.push_back(edge_strength(view.left));
       view.t_ns += camera_shift_ns;
     }
@@ -149,7 +149,7 @@ class ShiftedEdges {
 
  private:
   const FlightViews& flight_;
-  std::vector<FlightView> views_;
+  std::vector<ExposureView> views_;
   std::vector<cv::Mat> strengths_;
   double window_s_;
 };

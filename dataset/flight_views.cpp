@@ -37,7 +37,7 @@ class Collector {
   void add(const StereoFrame& frame) {
     if (frame.t_ns < next_view_ns_) return;
     next_view_ns_ = frame.t_ns + step_ns_;
-    FlightView view{frame.t_ns, rectifier_.rectify_left(to_grey(frame.left)), {}};
+    ExposureView view{frame.t_ns, rectifier_.rectify_left(to_grey(frame.left)), {}};
     if (!frame.right.empty()) view.right = rectifier_.rectify_right(to_grey(frame.right));
     flight_.views.push_back(std::move(view));
   }
@@ -106,7 +106,7 @@ FlightViews read_flight_views_with_bar(const std::filesystem::path& log, const R
   });
 }
 
-std::vector<SeenPoint> seen_from(const FlightViews& flight, const FlightView& view,
+std::vector<SeenPoint> seen_from(const FlightViews& flight, const ExposureView& view,
                                  const std::vector<LidarReturn>& returns, double window_s,
                                  std::int64_t lidar_shift_ns) {
   std::vector<SeenPoint> seen;

@@ -27,7 +27,7 @@ struct FlightViewsConfig {
 void bind(Binder& b, FlightViewsConfig& c);
 
 /// A rectified exposure.
-struct FlightView {
+struct ExposureView {
   std::int64_t t_ns = 0;
   cv::Mat left;   ///< CV_8UC1
   cv::Mat right;  ///< empty: mono
@@ -38,7 +38,7 @@ struct FlightView {
 struct FlightViews {
   RectifiedRig rig;
   Trajectory trajectory{0.25};
-  std::vector<FlightView> views;
+  std::vector<ExposureView> views;
   std::vector<LidarReturn> edges;
   std::vector<LidarReturn> points;
 };
@@ -64,7 +64,7 @@ struct SeenPoint {
 /// step 2). Returns without a pose are left out; all of them are where the image has none.
 /// @param returns in the order of time. @param lidar_shift_ns added to the returns' times for their poses; which returns are
 /// used does not depend on it
-std::vector<SeenPoint> seen_from(const FlightViews& flight, const FlightView& view,
+std::vector<SeenPoint> seen_from(const FlightViews& flight, const ExposureView& view,
                                  const std::vector<LidarReturn>& returns, double window_s,
                                  std::int64_t lidar_shift_ns = 0);
 

@@ -68,8 +68,8 @@ std::vector<ViewPair> follow_views(const FlightViews& flight, double points_wind
                                    std::size_t max_points) {
   std::vector<ViewPair> pairs;
   for (std::size_t i = 0; i + 1 < flight.views.size(); ++i) {
-    const FlightView& from = flight.views[i];
-    const FlightView& to = flight.views[i + 1];
+    const ExposureView& from = flight.views[i];
+    const ExposureView& to = flight.views[i + 1];
     ViewPair pair{from.t_ns, to.t_ns, {}};
     const auto motion = camera_motion(flight.trajectory, flight.rig.T_camera_imu, pair, offset_ns);
     if (!motion) continue;

@@ -133,7 +133,7 @@ TEST_F(RigCheckTest, AShiftIsNoticed) {
 TEST_F(RigCheckTest, CannotTellWithoutTexture) {
   FlightViews blank = flight();
   cv::RNG random(5);
-  for (FlightView& view : blank.views) {
+  for (ExposureView& view : blank.views) {
     view.left = cv::Mat(view.left.size(), CV_8UC1);
     random.fill(view.left, cv::RNG::NORMAL, 120, 2);  // the sensor's noise
     view.right = view.left.clone();

@@ -132,7 +132,7 @@ FlightViews forward_flight() {
 
 TEST(SeenFrom, CarriesPointsAlongAndKeepsToTheWindow) {
   const FlightViews flight = forward_flight();
-  FlightView view;
+  ExposureView view;
   view.t_ns = kNanosecondsPerSecond;
   std::vector<LidarReturn> returns;
   for (const double t_s : {0.5, 0.9, 1.1, 1.5}) {
@@ -155,7 +155,7 @@ TEST(SeenFrom, CarriesPointsAlongAndKeepsToTheWindow) {
 
 TEST(SeenFrom, NothingIsSeenWithoutAPose) {
   FlightViews flight = forward_flight();
-  FlightView view;
+  ExposureView view;
   view.t_ns = 3 * kNanosecondsPerSecond;
   LidarReturn point;
   point.t_ns = view.t_ns;

@@ -155,7 +155,7 @@ TEST_F(ClockAlignmentTest, AHoverOnTheSpotTellsNothing) {
 TEST_F(ClockAlignmentTest, ImagesWithoutTextureTellNothing) {
   FlightViews blank = read(log(), true_rig());
   cv::RNG random(3);
-  for (FlightView& view : blank.views) {
+  for (ExposureView& view : blank.views) {
     view.left = cv::Mat(view.left.size(), CV_8UC1);
     random.fill(view.left, cv::RNG::NORMAL, 120, 2);  // the sensor's noise
   }
