@@ -42,13 +42,17 @@ class Merge {
  public:
   void add(const fs::path& part) {
     const DatasetInfo info = read_dataset_info(part);
+    if (first_.empty()) {
+      first_ = part;
+      info_ = info;
+      info_.flights.clear();
+    }
     for (const FlightEntry& flight : info.flights) {
       const auto [place, is_new] = part_of_.emplace(flight.name, part);
       if (!is_new)
         throw DataError(part.string() + ": holds flight " + flight.name + ", as does " +
                         place->second.string());
       require_recipe(part, recipe_of_flight(part, flight));
-      if (info_.flights.empty()) info_ = info, info_.flights.clear();
       info_.flights.push_back(flight);
     }
   }
@@ -64,10 +68,7 @@ class Merge {
 
  private:
   void require_recipe(const fs::path& part, const std::string& recipe) {
-    if (recipe_.empty()) {
-      recipe_ = recipe;
-      first_ = part;
-    }
+    if (recipe_.empty()) recipe_ = recipe;
     if (recipe != recipe_) {
       throw DataError(part.string() + ": was built with another configuration, rig or version than " +
                       first_.string() + "; build both with the same");

@@ -2,19 +2,9 @@
 #include "dataset/commands.hpp"
 #include "dataset/inspect_command.hpp"
 
-int main(int argc, char** argv) {
-  CLI::App app{"From flight logs to data sets of images with sparse depth maps", "alight-dataset"};
-  app.require_subcommand(1)->fallthrough();  // -q and -v also after the subcommand
-  app.footer(
-      "Examples:\n"
-      "  alight-dataset build --config configs/dataset/default.yaml --log a.bag --log b.bag --output "
-      "data/demo\n"
-      "  alight-dataset merge data/part_1 data/part_2 --output data/demo\n"
-      "  alight-dataset info data/demo\n"
-      "  alight-dataset view data/demo --sample 12 --flight a --output sample.png\n"
-      "  alight-dataset align a.bag --rig configs/rigs/paper.yaml");
+namespace {
 
-  alight::BuildArguments build;
+CLI::App* add_build(CLI::App& app, alight::BuildArguments& build) {
   CLI::App* build_app = app.add_subcommand("build", "Make a data set of ROS 1 bags");
   alight::add_config_options(*build_app, build.config);
   build_app->add_option("-l,--log", build.logs, "A ROS 1 bag; repeat for more flights")
@@ -30,8 +20,10 @@ int main(int argc, char** argv) {
       "  alight-dataset build --log a.bag --log b.bag --output data/demo          adds b, a is up to date\n"
       "  alight-dataset build --log a.bag --log b.bag --shard 2/2 --output data/part_2\n"
       "A log that cannot be read is named and left out (exit code 1); the others are built.");
+  return build_app;
+}
 
-  alight::MergeArguments merge;
+CLI::App* add_merge(CLI::App& app, alight::MergeArguments& merge) {
   CLI::App* merge_app = app.add_subcommand("merge", "Make one data set of several, such as those of --shard");
   merge_app->add_option("parts", merge.parts, "Data sets of one configuration and rig")->required();
   merge_app->add_option("-o,--output", merge.output, "Folder to make; must not exist")->required();
@@ -39,6 +31,27 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  alight-dataset merge data/part_1 data/part_2 --output data/demo\n"
       "Files are linked where the file system can, else copied; the parts stay.");
+  return merge_app;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"From flight logs to data sets of images with sparse depth maps", "alight-dataset"};
+  app.require_subcommand(1)->fallthrough();  // -q and -v also after the subcommand
+  app.footer(
+      "Examples:\n"
+      "  alight-dataset build --config configs/dataset/default.yaml --log a.bag --log b.bag --output "
+      "data/demo\n"
+      "  alight-dataset merge data/part_1 data/part_2 --output data/demo\n"
+      "  alight-dataset info data/demo\n"
+      "  alight-dataset view data/demo --sample 12 --flight a --output sample.png\n"
+      "  alight-dataset align a.bag --rig configs/rigs/paper.yaml");
+
+  alight::BuildArguments build;
+  const CLI::App* build_app = add_build(app, build);
+  alight::MergeArguments merge;
+  const CLI::App* merge_app = add_merge(app, merge);
 
   alight::InfoOptions info;
   CLI::App* info_app = app.add_subcommand("info", "Print what is in a data set and what it is like");

@@ -89,6 +89,7 @@ class WorldBuilder {
   void grow_crop_row(const Area& area, double v_m, std::uint16_t surface, Random& random);
   void plant_trees();
   void plant_small();
+  std::vector<std::size_t> boulder_kinds(Random& random, int count, double max_shade);
   void scatter_boulders();
   void park_cars();
   void set_lamps_and_bales();

@@ -85,12 +85,7 @@ void WorldBuilder::scatter_stones() {
   constexpr int kStones = 900;
   constexpr int kKinds = 4;
   Random random = stream(32);
-  std::vector<std::size_t> kinds;
-  for (int i = 0; i < kKinds; ++i) {
-    const float shade = random.uniformf(0.7, 1.2);
-    kinds.push_back(
-        add_mesh(boulder(add_surface(Material::kRock, Eigen::Vector3f::Constant(shade)), random)));
-  }
+  const std::vector<std::size_t> kinds = boulder_kinds(random, kKinds, 1.2);
   for (int i = 0; i < scaled(kStones); ++i) {
     const double radius_m = random.uniform(0.13, 0.19);  // stands out by 20 to 30 cm
     const auto at = find_open(random, radius_m);

@@ -170,15 +170,19 @@ void WorldBuilder::plant_trees() {
           0.01);
 }
 
-void WorldBuilder::scatter_boulders() {
-  constexpr int kKinds = 6;
-  Random random = stream(25);
+std::vector<std::size_t> WorldBuilder::boulder_kinds(Random& random, int count, double max_shade) {
   std::vector<std::size_t> kinds;
-  for (int i = 0; i < kKinds; ++i) {
-    const float shade = random.uniformf(0.7, 1.3);
+  for (int i = 0; i < count; ++i) {
+    const float shade = random.uniformf(0.7, max_shade);
     kinds.push_back(
         add_mesh(boulder(add_surface(Material::kRock, Eigen::Vector3f::Constant(shade)), random)));
   }
+  return kinds;
+}
+
+void WorldBuilder::scatter_boulders() {
+  Random random = stream(25);
+  const std::vector<std::size_t> kinds = boulder_kinds(random, 6, 1.3);
   scatter(random, kinds, scaled(look_.boulders), 0.12, look_.max_boulder_m, 1.1, true, 0.2);
 }
 

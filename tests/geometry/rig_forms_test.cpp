@@ -5,11 +5,13 @@
 
 #include "geometry/frames.hpp"
 #include "geometry/rig.hpp"
+#include "tests/geometry/rig_error.hpp"
 
 namespace alight {
 namespace {
 
 using ::testing::AllOf;
+using testing::error_of;
 using ::testing::HasSubstr;
 
 constexpr const char* kLens = R"(cam0:
@@ -17,15 +19,6 @@ constexpr const char* kLens = R"(cam0:
   intrinsics: [440, 440, 319.5, 199.5]
   resolution: [640, 400]
 )";
-
-std::string error_of(const std::string& text) {
-  try {
-    parse_rig(text, "rig.yaml");
-  } catch (const ConfigError& e) {
-    return e.what();
-  }
-  return "";
-}
 
 Eigen::Isometry3d pose(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy_deg) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();

@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "geometry/stereo_rectification.hpp"
+#include "tests/geometry/rig_error.hpp"
 
 namespace alight {
 namespace {
 
+using testing::error_of;
 using ::testing::HasSubstr;
 
 const std::string kRoot = ALIGHT_SOURCE_DIR;
@@ -49,15 +51,6 @@ cam1:
   rostopic: /cam1/image_raw
   timeshift_cam_imu: -0.004
 )";
-
-std::string error_of(const std::string& text) {
-  try {
-    parse_rig(text, "rig.yaml");
-  } catch (const ConfigError& e) {
-    return e.what();
-  }
-  return "";
-}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
