@@ -19,7 +19,7 @@ TEST(SampleWriter, RunsEveryJobInOrder) {
 
 TEST(SampleWriter, AFailureComesBackAndEndsTheWork) {
   int later = 0;
-  SampleWriter writer(2, 1000);
+  SampleWriter writer(1, 1000);
   writer.add([] { throw std::runtime_error("disk full"); });
   EXPECT_THROW(
       {
@@ -27,7 +27,7 @@ TEST(SampleWriter, AFailureComesBackAndEndsTheWork) {
         writer.finish();
       },
       std::runtime_error);
-  EXPECT_LT(later, 1000);
+  EXPECT_EQ(later, 0);
 }
 
 TEST(SampleWriter, EndsWithoutFinish) {
