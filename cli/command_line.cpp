@@ -59,6 +59,7 @@ void restart_with_short_spin(char** argv) {
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kTopPad_bytes = 64 << 20;
+  mallopt(M_ARENA_MAX, 1);  // others give memory back whatever is said
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   mallopt(M_TOP_PAD, kTopPad_bytes);

@@ -24,8 +24,9 @@ int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& b
 /// environment. What the user set (GOMP_SPINCOUNT or OMP_WAIT_POLICY) stays.
 void restart_with_short_spin(char** argv);
 
-/// Freed memory stays with the process. A training step frees and takes the same hundreds of megabytes again and again;
-/// handing them back to the system in between costs a tenth of its time in page faults.
+/// Freed memory stays with the process; the first call of main after restart_with_short_spin(). A training step, and a
+/// frame on board, frees and takes the same megabytes again and again; handing them back to the system in between costs
+/// a tenth of its time in page faults.
 void keep_freed_memory();
 
 /// The options through which every tool takes its YAML file.

@@ -6,6 +6,7 @@
 int main(int argc, char** argv) {
 #ifdef ALIGHT_SIM_WITH_NETWORK
   alight::restart_with_short_spin(argv);
+  alight::keep_freed_memory();
 #endif
   CLI::App app(
       "Flies a simulated vehicle over made-up places: writes ROS bags with their truth, or lands with the "

@@ -192,6 +192,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   alight::restart_with_short_spin(argv);
+  alight::keep_freed_memory();
   CLI::App app{"Depth with a verdict and a landing site for every left image of a flight log",
                "alight-infer"};
   alight::Options options;

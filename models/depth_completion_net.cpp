@@ -156,7 +156,7 @@ DepthCompletionNetImpl::DepthCompletionNetImpl(const DepthCompletionConfig& conf
     below = config.detail_width;
   }
   const int outputs = config.head == Head::kGated ? 3 : 1;
-  head_ = register_module("head", torch::nn::Conv2d(torch::nn::Conv2dOptions(below, outputs, 3).padding(1)));
+  head_ = register_module("head", Convolution(torch::nn::Conv2dOptions(below, outputs, 3).padding(1)));
   torch::NoGradGuard no_grad;
   head_->weight.mul_(0.1);  // the first predictions lie near the middle of the range, not anywhere in it
   head_->bias.zero_();

@@ -8,6 +8,7 @@
 
 #include "configs/config_reader.hpp"
 #include "geometry/depth_map.hpp"
+#include "models/convolution.hpp"
 #include "models/resnet_encoder.hpp"
 #include "models/scene_view.hpp"
 
@@ -118,7 +119,7 @@ class DepthCompletionNetImpl : public torch::nn::Module {
   ResnetEncoder depth_encoder_{nullptr};
   std::vector<torch::nn::Sequential> decoder_;
   torch::nn::Sequential detail_{nullptr};  // null without detail_width
-  torch::nn::Conv2d head_{nullptr};
+  Convolution head_{nullptr};
 };
 TORCH_MODULE(DepthCompletionNet);
 

@@ -45,7 +45,7 @@ void append_row(std::string& table, const std::string& name, const std::string& 
 }  // namespace
 
 std::vector<LayerCost> measure_layers(DepthCompletionNet net, std::int64_t height_px, std::int64_t width_px) {
-  torch::NoGradGuard no_grad;
+  const torch::AutoGradMode by_aten(true);  // without gradients convolve() goes past aten::convolution
   const bool was_training = net->is_training();
   net->eval();
   Recording current;

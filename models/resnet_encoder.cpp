@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "models/convolution.hpp"
+
 namespace alight {
 namespace {
 
@@ -52,7 +54,7 @@ torch::nn::Sequential conv_block(int in_channels, int out_channels, int kernel, 
                            .stride(stride)
                            .padding(kernel / 2)
                            .bias(normalization == Normalization::kNone);
-  torch::nn::Conv2d conv(options);
+  Convolution conv(options);
   torch::nn::init::kaiming_normal_(conv->weight, 0.0, torch::kFanOut, torch::kReLU);
   block->push_back("conv", conv);
   if (normalization == Normalization::kBatch) {
@@ -74,8 +76,8 @@ BasicBlockImpl::BasicBlockImpl(int in_channels, int out_channels, int stride, No
 }
 
 torch::Tensor BasicBlockImpl::forward(const torch::Tensor& x) {
-  const torch::Tensor residual = second_->forward(first_->forward(x));
-  return torch::relu(residual + (shortcut_ ? shortcut_->forward(x) : x));
+  torch::Tensor residual = second_->forward(first_->forward(x));
+  return residual.add_(shortcut_ ? shortcut_->forward(x) : x).relu_();
 }
 
 ResnetEncoderImpl::ResnetEncoderImpl(int in_channels, const std::vector<int>& widths, Stem stem,

@@ -2,6 +2,9 @@
 
 #include <string>
 
+#include "models/convolution.hpp"
+#include "models/join_maps.hpp"
+
 namespace alight {
 namespace {
 
@@ -39,42 +42,31 @@ torch::Tensor block_weights(const torch::Tensor& weight) {
   return torch::cat({even_even, even_odd, odd_even, odd_odd}, 0);
 }
 
-/// Every second row and column, from (row, column) on.
-torch::Tensor every_second(const torch::Tensor& x, std::int64_t row, std::int64_t column) {
-  using torch::indexing::None;
-  using torch::indexing::Slice;
-  return x.index({Slice(), Slice(), Slice(row, None, 2), Slice(column, None, 2)});
+/// With the one pixel around it that kernels of 3 and of 2 want alike.
+torch::Tensor convolve(const torch::Tensor& x, const torch::Tensor& weight, const torch::Tensor& bias = {}) {
+  return alight::convolve(x, weight, bias, /*stride=*/1, /*padding=*/1);
 }
 
-/// Adds the convolution over `x` to `sum`, which is twice as large for weights of block_weights(). An undefined `sum` is
-/// made. @returns sum
-torch::Tensor add_convolution(torch::Tensor sum, const torch::Tensor& x, const torch::Tensor& weight,
-                              const torch::Tensor& bias = {}) {
-  const torch::Tensor y = torch::conv2d(x, weight, bias, /*stride=*/1, /*padding=*/1);
-  if (weight.size(2) == 3) return sum.defined() ? sum.add_(y) : y;
-  const std::int64_t height = x.size(2), width = x.size(3), channels = weight.size(0) / 4;
-  const bool fresh = !sum.defined();
-  if (fresh) {
-    sum = torch::empty({x.size(0), channels, 2 * height, 2 * width},
-                       x.options().memory_format(torch::MemoryFormat::ChannelsLast));
-  }
-  for (std::int64_t row = 0; row < 2; ++row) {
-    for (std::int64_t column = 0; column < 2; ++column) {
-      // y is larger by one: its pixel i saw values i-1 and i.
-      const torch::Tensor part = y.narrow(1, (2 * row + column) * channels, channels)
-                                     .narrow(2, row, height)
-                                     .narrow(3, column, width);
-      torch::Tensor target = every_second(sum, row, column);
-      fresh ? target.copy_(part) : target.add_(part);
-    }
-  }
-  return sum;
-}
+/// Whether weights are those of block_weights().
+bool makes_blocks(const torch::Tensor& weight) { return weight.size(2) == 2; }
 
 /// What follows the convolution in its block.
 torch::Tensor activate(torch::nn::Sequential block, torch::Tensor x) {
   for (auto layer = block->begin() + 1; layer != block->end(); ++layer) x = layer->forward(x);
   return x;
+}
+
+/// x [B,C,H,W] and the network's input [B,D,H,W] in one map of x's type, channels-last.
+torch::Tensor with_input(const torch::Tensor& x, const torch::Tensor& input) {
+  torch::Tensor both = torch::empty({x.size(0), x.size(1) + input.size(1), x.size(2), x.size(3)},
+                                    x.options().memory_format(torch::MemoryFormat::ChannelsLast));
+  both.narrow(1, 0, x.size(1)).copy_(x);
+  both.narrow(1, x.size(1), input.size(1)).copy_(input);
+  return both;
+}
+
+bool only_rectifies(const torch::nn::Sequential& block) {
+  return block->size() == 2 && block->ptr(1)->as<torch::nn::ReLU>() != nullptr;
 }
 
 }  // namespace
@@ -141,40 +133,44 @@ std::vector<torch::Tensor> SplitDecoder::image_part(const std::vector<torch::Ten
   std::vector<torch::Tensor> parts;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const Level& level = levels_[i];
-    if (!level.sees_image()) {
-      parts.emplace_back();
-      continue;
+    torch::Tensor part;
+    if (level.sees_image())
+      part = convolve(image_pyramid[levels_.size() - 1 - i], level.image_skip, level.bias);
+    if (level.image_below.defined()) {
+      part = join_maps(convolve(image_pyramid.back(), level.image_below), makes_blocks(level.image_below),
+                       {part},
+                       /*rectify=*/false);
     }
-    torch::Tensor part =
-        add_convolution({}, image_pyramid[levels_.size() - 1 - i], level.image_skip, level.bias);
-    if (level.image_below.defined()) part = add_convolution(part, image_pyramid.back(), level.image_below);
     parts.push_back(part);
   }
   if (detail_) {
     const torch::Tensor input =
         image_pyramid[0].to(detail_->image_skip.dtype()).contiguous(torch::MemoryFormat::ChannelsLast);
-    parts.push_back(add_convolution({}, input, detail_->image_skip, detail_->bias));
+    parts.push_back(convolve(input, detail_->image_skip, detail_->bias));
   }
   return parts;
 }
 
 torch::Tensor SplitDecoder::decode(const std::vector<torch::Tensor>& image_part,
                                    const std::vector<torch::Tensor>& depth_pyramid) {
+  const torch::Tensor& input = depth_pyramid[0];
   torch::Tensor x = depth_pyramid.back();  // [B,w3,H/32,W/32]
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const Level& level = levels_[i];
-    torch::Tensor sum;
-    if (level.sees_image()) {
-      sum = add_convolution({}, depth_pyramid[levels_.size() - 1 - i], level.depth_skip).add_(image_part[i]);
-    }
-    x = activate(level.block,
-                 add_convolution(sum, x, level.below, level.sees_image() ? torch::Tensor() : level.bias));
+    const torch::Tensor y = convolve(x, level.below, level.sees_image() ? torch::Tensor() : level.bias);
+    std::vector<torch::Tensor> addends;
+    if (level.sees_image())
+      addends = {convolve(depth_pyramid[levels_.size() - 1 - i], level.depth_skip), image_part[i]};
+    const bool rectify = only_rectifies(level.block);
+    torch::Tensor map = join_maps(y, makes_blocks(level.below), addends, rectify);
+    x = rectify ? map : activate(level.block, map);
   }
-  const torch::Tensor& input = depth_pyramid[0];
   x = x.narrow(2, 0, input.size(2)).narrow(3, 0, input.size(3));
   if (detail_) {
-    const torch::Tensor sum = add_convolution({}, torch::cat({x, input.to(x.dtype())}, 1), detail_->below);
-    x = activate(detail_->block, sum.add_(image_part.back()));
+    const torch::Tensor y = convolve(with_input(x, input), detail_->below);
+    const bool rectify = only_rectifies(detail_->block);
+    const torch::Tensor map = join_maps(y, false, {image_part.back()}, rectify);
+    x = rectify ? map : activate(detail_->block, map);
   }
   return net_->depth_of(x, input);
 }

@@ -43,6 +43,7 @@ int run_node() {
 
 int main(int argc, char** argv) {
   alight::restart_with_short_spin(argv);
+  alight::keep_freed_memory();
   ros::init(argc, argv, "alight");
   return alight::run_node();
 }

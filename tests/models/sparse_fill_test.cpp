@@ -1,5 +1,7 @@
 #include "models/sparse_fill.hpp"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace alight {
@@ -69,6 +71,28 @@ TEST(SparseFill, SamplesDoNotMix) {
   const SparseFill fill = fill_pyramid(value, valid);
   EXPECT_EQ(fill.value[0].abs().max().item<float>(), 0);
   EXPECT_EQ(fill.value[1].min().item<float>(), 1);
+}
+
+/// Planes in float32, tensors in float64: two ways to the same fill.
+TEST(SparseFill, PlanesAndTensorsAgree) {
+  torch::manual_seed(4);
+  for (const auto& [height, width] : {std::pair{1, 1}, {1, 9}, {7, 1}, {13, 17}, {64, 96}, {35, 50}}) {
+    for (const double share : {0.0, 0.02, 0.3, 1.0}) {
+      const torch::Tensor value = torch::randn({2, 1, height, width});
+      const torch::Tensor valid = (torch::rand({2, 1, height, width}) < share).to(torch::kFloat32);
+      for (const int smoothing : {0, 3}) {
+        const SparseFill planes = fill_pyramid(value, valid, smoothing);
+        const SparseFill tensors =
+            fill_pyramid(value.to(torch::kFloat64), valid.to(torch::kFloat64), smoothing);
+        const auto differ = [](const torch::Tensor& a, const torch::Tensor& b) {
+          return (a.to(torch::kFloat64) - b).abs().max().item<double>();
+        };
+        EXPECT_LT(differ(planes.value, tensors.value), 1e-5) << height << "x" << width << " " << share;
+        EXPECT_LT(differ(planes.coarseness, tensors.coarseness), 1e-5)
+            << height << "x" << width << " " << share;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "models/stereo_cue.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,26 @@ TEST(StereoCue, KeepsAnOddSizeAndRefusesWrongShapes) {
   EXPECT_EQ(cue(pair, 10).sizes(), (std::vector<std::int64_t>{1, kStereoCueChannels, 33, 47}));
   EXPECT_THROW(stereo_cue(pair.left, pair.right, torch::ones({1, 1, 8, 8}), torch::ones({1})),
                std::invalid_argument);
+}
+
+/// Planes in float32, tensors in float64: two ways to the same cues.
+TEST(StereoCue, PlanesAndTensorsAgree) {
+  torch::manual_seed(5);
+  for (const auto& [height, width] : {std::pair<std::int64_t, std::int64_t>{64, 96}, {37, 51}, {8, 8}}) {
+    Pair pair = pair_at(9, height, width);
+    pair.left = torch::cat({pair.left, torch::rand({2, 3, height, width})});
+    pair.right =
+        torch::cat({pair.right, torch::rand({1, 3, height, width}), torch::zeros({1, 3, height, width})});
+    const torch::Tensor prior_m = 8 + 4 * torch::rand({3, 1, height, width});
+    prior_m[1].slice(1, 0, 3).zero_();
+    const torch::Tensor baseline = torch::full({3}, kFocalBaseline_px_m);
+    const auto as_double = [](const torch::Tensor& x) { return x.to(torch::kFloat64); };
+    const torch::Tensor planes = stereo_cue(pair.left, pair.right, prior_m, baseline);
+    const torch::Tensor tensors =
+        stereo_cue(as_double(pair.left), as_double(pair.right), as_double(prior_m), as_double(baseline));
+    EXPECT_LT((as_double(planes) - tensors).abs().max().item<double>(), 1e-3) << height << "x" << width;
+    EXPECT_LT((as_double(planes) - tensors).abs().mean().item<double>(), 1e-5) << height << "x" << width;
+  }
 }
 
 }  // namespace
