@@ -88,7 +88,8 @@ StereoTest::StereoTest(const cv::Mat& left, const cv::Mat& right, const Rectifie
 RightView StereoTest::reconstruct(const cv::Mat& depth_m) const {
   const auto focal_baseline_px_m = static_cast<float>(rig_.intrinsics.fx_px * rig_.baseline_m);
   const int width = depth_m.cols;
-  RightView view{cv::Mat::zeros(depth_m.size(), CV_32FC1), cv::Mat::zeros(depth_m.size(), CV_8UC1)};
+  cv::Mat luminance = cv::Mat::zeros(depth_m.size(), CV_32FC1);
+  RightView view{{}, cv::Mat::zeros(depth_m.size(), CV_8UC1)};
   std::vector<float> nearest_m(static_cast<std::size_t>(width));
   for (int v = 0; v < depth_m.rows; ++v) {
     const float* depth_row_m = depth_m.ptr<float>(v);
@@ -102,7 +103,7 @@ RightView StereoTest::reconstruct(const cv::Mat& depth_m) const {
       if (held_m == 0.0F || z_m < held_m) held_m = z_m;
     }
     const float* left_row = left_.ptr<float>(v);
-    auto* luminance_row = view.luminance.ptr<float>(v);
+    auto* luminance_row = luminance.ptr<float>(v);
     auto* valid_row = view.valid.ptr<std::uint8_t>(v);
     for (int u = 0; u < width; ++u) {
       const float z_m = nearest_m[static_cast<std::size_t>(u)];
@@ -115,6 +116,7 @@ RightView StereoTest::reconstruct(const cv::Mat& depth_m) const {
       valid_row[u] = 255;
     }
   }
+  if (has_right()) view.similarity = ssim_map(luminance, right_);
   return view;
 }
 
@@ -126,8 +128,8 @@ StereoScores StereoTest::score(const RightView& prediction, const RightView* lid
   if (pixels == 0) return scores;
   scores.share = static_cast<double>(pixels) / static_cast<double>(counted.total());
   scores.sim = cv::mean(ssim_plain_, counted)[0];
-  scores.sim_pred = cv::mean(ssim_map(prediction.luminance, right_), counted)[0];
-  if (lidar != nullptr) scores.sim_d = cv::mean(ssim_map(lidar->luminance, right_), counted)[0];
+  scores.sim_pred = cv::mean(prediction.similarity, counted)[0];
+  if (lidar != nullptr) scores.sim_d = cv::mean(lidar->similarity, counted)[0];
   return scores;
 }
 
@@ -138,9 +140,7 @@ std::optional<double> StereoTest::peak(const cv::Mat& depth_m, const RightView& 
   const RightView farther = reconstruct(depth_m * (1 + probe));
   const cv::Mat counted = whole_windows(whole_windows(nearer.valid, farther.valid), prediction.valid);
   if (cv::countNonZero(counted) == 0) return std::nullopt;
-  const auto similarity = [&](const RightView& view) {
-    return cv::mean(ssim_map(view.luminance, right_), counted)[0];
-  };
+  const auto similarity = [&](const RightView& view) { return cv::mean(view.similarity, counted)[0]; };
   return similarity(prediction) - std::max(similarity(nearer), similarity(farther));
 }
 

@@ -48,10 +48,10 @@ bool paper_accepts(const StereoScores& scores, const StereoTestConfig& config);
 /// rule can accept. No evidence: mono, too few comparable pixels, or too little contrast (see the configuration).
 Verdict judge(const StereoScores& scores, const StereoTestConfig& config);
 
-/// The right image made from the left one.
+/// The right image made from the left one, beside the true one.
 struct RightView {
-  cv::Mat luminance;  ///< CV_32FC1
-  cv::Mat valid;      ///< CV_8UC1, 255 where a surface was seen by both eyes
+  cv::Mat similarity;  ///< CV_32FC1, SSIM of the two; empty without a right image
+  cv::Mat valid;       ///< CV_8UC1, 255 where a surface was seen by both eyes
 };
 
 /// Scores depth maps of one stereo pair.

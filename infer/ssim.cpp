@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include <Eigen/Core>
 #include <opencv2/imgproc.hpp>
 
 namespace alight {
@@ -10,10 +11,34 @@ namespace {
 constexpr float kC1 = 0.01F * 0.01F;
 constexpr float kC2 = 0.03F * 0.03F;
 
-cv::Mat box(const cv::Mat& image) {
-  cv::Mat mean;
-  cv::boxFilter(image, mean, CV_32F, {3, 3}, {-1, -1}, true, cv::BORDER_REFLECT_101);
-  return mean;
+/// Sums over columns of three rows; windows over the border see its reflection.
+struct WindowRow {
+  explicit WindowRow(int width) : a(width), b(width), aa(width), bb(width), ab(width) {}
+  Eigen::ArrayXf a, b, aa, bb, ab;  // [W]
+};
+
+int reflect(int at, int length) { return cv::borderInterpolate(at, length, cv::BORDER_REFLECT_101); }
+
+void add_row(const float* a, const float* b, WindowRow& sums) {
+  for (Eigen::Index u = 0; u < sums.a.size(); ++u) {
+    sums.a[u] += a[u];
+    sums.b[u] += b[u];
+    sums.aa[u] += a[u] * a[u];
+    sums.bb[u] += b[u] * b[u];
+    sums.ab[u] += a[u] * b[u];
+  }
+}
+
+/// @param before, here, after columns of the window
+float similarity(const WindowRow& sums, Eigen::Index before, Eigen::Index here, Eigen::Index after) {
+  constexpr float kMean = 1.0F / 9;
+  const auto mean = [&](const Eigen::ArrayXf& x) { return kMean * (x[before] + x[here] + x[after]); };
+  const float a = mean(sums.a), b = mean(sums.b);
+  const float product = a * b;
+  const float squares = a * a + b * b;
+  const float covariance = mean(sums.ab) - product;
+  const float variances = mean(sums.aa) + mean(sums.bb) - squares;
+  return (2 * product + kC1) * (2 * covariance + kC2) / ((squares + kC1) * (variances + kC2));
 }
 
 }  // namespace
@@ -36,26 +61,16 @@ cv::Mat ssim_map(const cv::Mat& a, const cv::Mat& b) {
   if (a.type() != CV_32FC1 || b.type() != CV_32FC1 || a.size() != b.size()) {
     throw std::invalid_argument("ssim_map: images must be CV_32FC1 of one size");
   }
-  const cv::Mat mean_a = box(a);
-  const cv::Mat mean_b = box(b);
-  const cv::Mat mean_aa = box(a.mul(a));
-  const cv::Mat mean_bb = box(b.mul(b));
-  const cv::Mat mean_ab = box(a.mul(b));
   cv::Mat ssim(a.size(), CV_32FC1);
-  for (int v = 0; v < ssim.rows; ++v) {
-    const float* ma = mean_a.ptr<float>(v);
-    const float* mb = mean_b.ptr<float>(v);
-    const float* maa = mean_aa.ptr<float>(v);
-    const float* mbb = mean_bb.ptr<float>(v);
-    const float* mab = mean_ab.ptr<float>(v);
-    float* out = ssim.ptr<float>(v);
-    for (int u = 0; u < ssim.cols; ++u) {
-      const float product = ma[u] * mb[u];
-      const float squares = ma[u] * ma[u] + mb[u] * mb[u];
-      const float covariance = mab[u] - product;
-      const float variances = maa[u] + mbb[u] - squares;
-      out[u] = (2 * product + kC1) * (2 * covariance + kC2) / ((squares + kC1) * (variances + kC2));
-    }
+  for (int v = 0; v < a.rows; ++v) {
+    WindowRow sums(a.cols);
+    for (Eigen::ArrayXf* sum : {&sums.a, &sums.b, &sums.aa, &sums.bb, &sums.ab}) sum->setZero();
+    for (const int row : {reflect(v - 1, a.rows), v, reflect(v + 1, a.rows)})
+      add_row(a.ptr<float>(row), b.ptr<float>(row), sums);
+    auto* out = ssim.ptr<float>(v);
+    for (int u = 1; u + 1 < a.cols; ++u) out[u] = similarity(sums, u - 1, u, u + 1);
+    for (const int u : {0, a.cols - 1})
+      out[u] = similarity(sums, reflect(u - 1, a.cols), u, reflect(u + 1, a.cols));
   }
   return ssim;
 }
