@@ -32,10 +32,24 @@ struct DepthRange {
   double max_m = 250.0;
 };
 
-/// Projects points into the image taken at `t_image_ns` (paper 3.1, step 3): pinhole, nearest pixel; where
-/// several points fall on a pixel the one closest in time to the image wins (the nearer one at equal times).
-/// May be called repeatedly on the same `out` to accumulate. @returns points that fell into the image and
-/// range
+/// A point as an image sees it.
+struct PixelPoint {
+  std::int32_t pixel;      ///< row * width + column
+  float depth_m;           ///< plane depth
+  std::int32_t offset_us;  ///< t_point - t_image
+};
+
+/// Those points that fall into the image taken at `t_image_ns` (paper 3.1, step 3), in their order: pinhole, nearest pixel.
+std::vector<PixelPoint> points_in_image(const std::vector<WorldPoint>& points,
+                                        const Eigen::Isometry3d& T_camera_world,
+                                        const PinholeIntrinsics& intrinsics, std::int64_t t_image_ns,
+                                        const DepthRange& range);
+
+/// Puts them into a map: where several fall on a pixel the one closest in time to the image wins (the nearer one at equal
+/// times). May be called repeatedly on the same `out`, of the image's size, to accumulate.
+void add_points(const std::vector<PixelPoint>& points, SparseDepth& out);
+
+/// Both in one. @returns points that fell into the image and range
 int project_points(const std::vector<WorldPoint>& points, const Eigen::Isometry3d& T_camera_world,
                    const PinholeIntrinsics& intrinsics, std::int64_t t_image_ns, const DepthRange& range,
                    SparseDepth& out);

@@ -60,16 +60,13 @@ ImageTask::ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, Dep
   result_.stages_ms = std::move(stages_ms);
 }
 
-void ImageTask::project(const WorldPacket& packet, SparseDepth& out) {
-  const StageTimer timer(result_.stages_ms, "project");
-  project_points(packet.points, T_camera_world_, rig_.intrinsics, result_.t_ns,
-                 {config_.min_depth_m, config_.max_depth_m}, out);
-}
-
 void ImageTask::offer(WorldPacketPtr packet) {
-  project(*packet, known_);
+  const StageTimer timer(result_.stages_ms, "project");
+  waiting_.push_back({points_in_image(packet->points, T_camera_world_, rig_.intrinsics, result_.t_ns,
+                                      {config_.min_depth_m, config_.max_depth_m}),
+                      packet->duration_s});
+  add_points(waiting_.back().points, known_);
   lidar_view_.reset();
-  waiting_.push_back(std::move(packet));
 }
 
 /// Half a packet more or less is as near to the wanted time as whole packets come.
@@ -88,22 +85,22 @@ int ImageTask::packets_for_next_step() const {
   const int wanted = packets_wanted();
   double total_s = result_.accumulation_s;
   int count = 0;
-  for (const WorldPacketPtr& packet : waiting_) {
+  for (const Packet& packet : waiting_) {
     ++count;
-    total_s += packet->duration_s;
-    if (count == wanted || total_s + packet->duration_s / 2 >= config_.max_accumulation_s) return count;
+    total_s += packet.duration_s;
+    if (count == wanted || total_s + packet.duration_s / 2 >= config_.max_accumulation_s) return count;
   }
   return 0;
 }
 
 void ImageTask::feed(int packets) {
   for (int i = 0; i < packets && !waiting_.empty() && !full(); ++i) {
-    const WorldPacketPtr packet = waiting_.front();
+    const Packet packet = std::move(waiting_.front());
     waiting_.pop_front();
-    project(*packet, fed_);
+    add_points(packet.points, fed_);
     ++fed_packets_;
-    result_.accumulation_s += packet->duration_s;
-    last_duration_s_ = packet->duration_s;
+    result_.accumulation_s += packet.duration_s;
+    last_duration_s_ = packet.duration_s;
   }
   predicted_ = false;
 }
@@ -122,11 +119,9 @@ void ImageTask::predict() {
   const cv::Mat usable = (prediction_m_ >= config_.min_depth_m) & (prediction_m_ <= config_.max_depth_m);
   prediction_m_.setTo(0, ~usable);
   predicted_ = true;
-  holdout_done_ = false;
+  holdout_done_ = stereo_done_ = false;
   result_.holdout = {};
-  result_.holdout_verdict = Verdict::kNoEvidence;
-  evaluate_holdout();
-  evaluate_stereo();
+  result_.holdout_verdict = result_.stereo_verdict = Verdict::kNoEvidence;
 }
 
 /// By the points that came, or else by what was predicted: the circle moves with the distance, as the LiDAR is not where
@@ -135,8 +130,16 @@ cv::Mat ImageTask::fov_mask() {
   return lidar_circle(known_.count() > 0 ? known_.depth_m : prediction_m_, rig_, config_.lidar_half_fov_deg);
 }
 
+/// The stereo test costs more than the other and is made where it can still change the decision; for the record it is made
+/// once an image, of the last prediction.
+bool ImageTask::stereo_decides(bool lidar_silent) const {
+  return decide(Verdict::kAccept, result_.holdout_verdict, lidar_silent, config_.self_evaluation.decide_by) ==
+         Verdict::kAccept;
+}
+
 void ImageTask::evaluate_stereo() {
-  if (!stereo_test_.has_right()) return;
+  if (result_.predictions == 0 || stereo_done_ || !stereo_test_.has_right()) return;
+  stereo_done_ = true;
   const StageTimer timer(result_.stages_ms, "evaluate");
   const RightView prediction = stereo_test_.reconstruct(prediction_m_);
   if (!lidar_view_ && known_.count() > 0) {
@@ -155,9 +158,9 @@ void ImageTask::evaluate_stereo() {
 
 void ImageTask::evaluate_holdout() {
   if (holdout_done_ || waiting_.empty()) return;
-  SparseDepth holdout = SparseDepth::empty(rig_.intrinsics.size());
-  project(*waiting_.front(), holdout);
   const StageTimer timer(result_.stages_ms, "evaluate");
+  SparseDepth holdout = SparseDepth::empty(rig_.intrinsics.size());
+  add_points(waiting_.front().points, holdout);
   result_.holdout = compare_with_holdout(prediction_m_, holdout.depth_m, fed_.depth_m);
   result_.holdout_verdict = judge(result_.holdout, config_.self_evaluation.holdout);
   holdout_done_ = true;
@@ -178,6 +181,7 @@ bool ImageTask::advance(bool lidar_silent) {
     if (predictor_ != nullptr && !(result_.predictions > 0 && beyond_judgement(lidar_silent))) {
       if (!predicted_) predict();
       evaluate_holdout();
+      if (stereo_decides(lidar_silent)) evaluate_stereo();
       if (decide(result_.stereo_verdict, result_.holdout_verdict, lidar_silent,
                  config_.self_evaluation.decide_by) == Verdict::kAccept) {
         accept();
@@ -185,6 +189,7 @@ bool ImageTask::advance(bool lidar_silent) {
       }
     }
     if (full()) {
+      evaluate_stereo();
       fall_back(predictor_ != nullptr ? verdicts() : "LiDAR alone");
     } else if (const int packets = packets_for_next_step(); packets > 0) {
       feed(packets);
@@ -197,6 +202,7 @@ bool ImageTask::advance(bool lidar_silent) {
 
 void ImageTask::close(bool lidar_silent, const std::string& why) {
   if (advance(lidar_silent)) return;
+  evaluate_stereo();
   const std::string reason = predictor_ != nullptr ? why + "; " + verdicts() : why;
   feed(static_cast<int>(waiting_.size()));
   fall_back(reason);
@@ -210,6 +216,7 @@ std::string ImageTask::verdicts() const {
 }
 
 void ImageTask::accept() {
+  evaluate_stereo();
   const bool image_alone = fed_packets_ == 0;
   result_.depth_m = prediction_m_;
   result_.pixel_source = cv::Mat::zeros(prediction_m_.size(), CV_8UC1);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "configs/config_reader.hpp"
 #include "geometry/projection.hpp"
@@ -39,7 +40,7 @@ void bind(Binder& b, ImageTaskConfig& c);
 
 /// Dynamic-time inference of one image (paper 3.2): predict from the image alone, evaluate; while not trusted, take more
 /// LiDAR, predict again, evaluate; when the LiDAR time is used up, interpolate. A packet that was not fed yet is first
-/// compared with the prediction (hold-out), then fed. Every packet costs its own projections and nothing else.
+/// compared with the prediction (hold-out), then fed. Every packet costs its own projection and nothing else.
 class ImageTask {
  public:
   /// @param view rectified, cropped; `right` empty for mono; down_camera is set from the pose. @param predictor null:
@@ -64,13 +65,13 @@ class ImageTask {
   DepthResult take();
 
  private:
-  void project(const WorldPacket& packet, SparseDepth& out);
   void feed(int packets);
   int packets_for_next_step() const;
   int packets_wanted() const;
   bool full() const;
   bool beyond_judgement(bool lidar_silent) const;
   void predict();
+  bool stereo_decides(bool lidar_silent) const;
   void evaluate_stereo();
   void evaluate_holdout();
   cv::Mat fov_mask();
@@ -86,7 +87,12 @@ class ImageTask {
   StereoTest stereo_test_;
   PredictorView view_;
   std::unique_ptr<EncodedImage> encoded_;
-  std::deque<WorldPacketPtr> waiting_;
+  /// What of a packet falls into the image.
+  struct Packet {
+    std::vector<PixelPoint> points;
+    double duration_s = 0;
+  };
+  std::deque<Packet> waiting_;
   SparseDepth known_;  // every point that came, fed or not: the reference of the stereo test
   SparseDepth fed_;
   int first_packets_ = 0;
@@ -96,6 +102,7 @@ class ImageTask {
   std::optional<RightView> lidar_view_;  // from known_
   bool predicted_ = false;
   bool holdout_done_ = false;
+  bool stereo_done_ = false;
   bool done_ = false;
   DepthResult result_;
 };
