@@ -29,25 +29,20 @@ ImageSite in_camera_image(const LandingSite& site, const Eigen::Matrix3d& R_leve
   return {pixel.x(), pixel.y(), site.radius_m * intrinsics.fx_px / p_camera.z()};
 }
 
-LandingPipeline::LandingPipeline(const DepthEngineConfig& engine, const LandingConfig& landing,
-                                 const Rig& rig, std::shared_ptr<DepthPredictor> predictor)
+DepthStage::DepthStage(const DepthEngineConfig& engine, const Rig& rig,
+                       std::shared_ptr<DepthPredictor> predictor)
     : monitor_(engine.health, rig, predictor != nullptr ? DepthMakers::kImageAndLidar : DepthMakers::kLidar),
-      engine_(engine, rig, std::move(predictor)),
-      selector_(landing.selection, engine_.rig().intrinsics),
-      fused_(landing.fuse ? std::optional<FusedSelector>(std::in_place, landing.grid, selector_)
-                          : std::nullopt),
-      site_source_(landing.site_source),
-      tracker_(landing.tracker, selector_) {}
+      engine_(engine, rig, std::move(predictor)) {}
 
-std::vector<FrameReport> LandingPipeline::add(const LogMessage& message) {
+std::vector<SensedDepth> DepthStage::add(const LogMessage& message) {
   const std::vector<LogMessage> believed = monitor_.add(message);
   if (monitor_.take_lidar_spoiled()) engine_.forget_lidar("the LiDAR points so far do not hold any more");
   health_ = monitor_.report();
   pass_on(believed);
-  return report();
+  return take();
 }
 
-void LandingPipeline::pass_on(const std::vector<LogMessage>& messages) {
+void DepthStage::pass_on(const std::vector<LogMessage>& messages) {
   for (const LogMessage& message : messages) {
     engine_.add(message);
     const auto* packet = std::get_if<LidarPacket>(&message);
@@ -55,26 +50,34 @@ void LandingPipeline::pass_on(const std::vector<LogMessage>& messages) {
   }
 }
 
-std::vector<FrameReport> LandingPipeline::finish() {
+std::vector<SensedDepth> DepthStage::finish() {
   pass_on(monitor_.finish());
   engine_.finish();
-  return report();
+  return take();
 }
 
-std::vector<FrameReport> LandingPipeline::report() {
-  std::vector<FrameReport> reports;
-  for (DepthResult& depth : engine_.take_results()) reports.push_back(report(std::move(depth)));
-  return reports;
+std::vector<SensedDepth> DepthStage::take() {
+  std::vector<SensedDepth> sensed;
+  for (DepthResult& depth : engine_.take_results()) sensed.push_back({std::move(depth), health_});
+  return sensed;
 }
 
-FrameReport LandingPipeline::report(DepthResult depth) {
+SiteStage::SiteStage(const LandingConfig& landing, const PinholeIntrinsics& intrinsics)
+    : intrinsics_(intrinsics),
+      selector_(landing.selection, intrinsics),
+      fused_(landing.fuse ? std::optional<FusedSelector>(std::in_place, landing.grid, selector_)
+                          : std::nullopt),
+      site_source_(landing.site_source),
+      tracker_(landing.tracker, selector_) {}
+
+FrameReport SiteStage::report(SensedDepth sensed) {
   FrameReport frame;
-  frame.depth = std::move(depth);
-  frame.health = health_;
+  frame.depth = std::move(sensed.depth);
+  frame.health = std::move(sensed.health);
   // An image out of time order has no place in a row of consecutive frames.
   if (last_ns_ && frame.depth.t_ns <= *last_ns_) return frame;
   last_ns_ = frame.depth.t_ns;
-  if (frame.depth.depth_m.empty() || health_.state == HealthState::kFailed) {
+  if (frame.depth.depth_m.empty() || frame.health.state == HealthState::kFailed) {
     frame.decision = tracker_.update_without_depth(frame.depth.t_ns);
     return frame;
   }
@@ -88,10 +91,20 @@ FrameReport LandingPipeline::report(DepthResult depth) {
   }
   frame.decision = tracker_.update(frame.depth.t_ns, frame.decisive(), T_world_camera);
   if (frame.decision.site) {
-    frame.image_site = in_camera_image(frame.decision.site->circle, frame.selection->R_level_camera,
-                                       engine_.rig().intrinsics);
+    frame.image_site =
+        in_camera_image(frame.decision.site->circle, frame.selection->R_level_camera, intrinsics_);
   }
   return frame;
+}
+
+LandingPipeline::LandingPipeline(const DepthEngineConfig& engine, const LandingConfig& landing,
+                                 const Rig& rig, std::shared_ptr<DepthPredictor> predictor)
+    : depth_(engine, rig, std::move(predictor)), sites_(landing, depth_.engine().rig().intrinsics) {}
+
+std::vector<FrameReport> LandingPipeline::report(std::vector<SensedDepth> sensed) {
+  std::vector<FrameReport> reports;
+  for (SensedDepth& one : sensed) reports.push_back(sites_.report(std::move(one)));
+  return reports;
 }
 
 }  // namespace alight

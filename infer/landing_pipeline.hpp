@@ -54,18 +54,23 @@ struct FrameReport {
   std::string site_reason() const;
 };
 
-/// Messages in, depth and landing decision per left image out: what replay and a live node run. The sensors' health is
-/// judged first (HealthMonitor), and only what may be believed goes to the engine. While no usable images come, every
-/// LiDAR packet makes a frame of its own, without image, so that landing goes on by the LiDAR alone.
-class LandingPipeline {
- public:
-  LandingPipeline(const DepthEngineConfig& engine, const LandingConfig& landing, const Rig& rig,
-                  std::shared_ptr<DepthPredictor> predictor);
+/// The depth of an image, and how the sensors were when it became final.
+struct SensedDepth {
+  DepthResult depth;
+  HealthReport health;
+};
 
-  /// @returns the frames that became final, in image order
-  std::vector<FrameReport> add(const LogMessage& message);
+/// Messages in, depth per left image out. The sensors' health is judged first (HealthMonitor), and only what may be
+/// believed goes to the engine. While no usable images come, every LiDAR packet makes a frame of its own, without image, so
+/// that landing goes on by the LiDAR alone.
+class DepthStage {
+ public:
+  DepthStage(const DepthEngineConfig& engine, const Rig& rig, std::shared_ptr<DepthPredictor> predictor);
+
+  /// @returns what became final, in image order
+  std::vector<SensedDepth> add(const LogMessage& message);
   /// No more messages will come.
-  std::vector<FrameReport> finish();
+  std::vector<SensedDepth> finish();
 
   const DepthEngine& engine() const { return engine_; }
   /// The sensors' health as of the latest message, whether or not a frame came of it.
@@ -75,17 +80,54 @@ class LandingPipeline {
 
  private:
   void pass_on(const std::vector<LogMessage>& messages);
-  std::vector<FrameReport> report();
-  FrameReport report(DepthResult depth);
+  std::vector<SensedDepth> take();
 
   HealthMonitor monitor_;
   HealthReport health_;
   DepthEngine engine_;
+};
+
+/// Depth in, landing decision out; knows nothing of the other stage, so that both may work at once.
+class SiteStage {
+ public:
+  SiteStage(const LandingConfig& landing, const PinholeIntrinsics& intrinsics);
+
+  /// In the order in which DepthStage gave them.
+  FrameReport report(SensedDepth sensed);
+
+ private:
+  PinholeIntrinsics intrinsics_;
   SiteSelector selector_;
   std::optional<FusedSelector> fused_;
   SiteSource site_source_;
   SiteTracker tracker_;
   std::optional<std::int64_t> last_ns_;
+};
+
+/// Messages in, depth and landing decision per left image out: both stages, one after the other.
+class LandingPipeline {
+ public:
+  LandingPipeline(const DepthEngineConfig& engine, const LandingConfig& landing, const Rig& rig,
+                  std::shared_ptr<DepthPredictor> predictor);
+
+  /// @returns the frames that became final, in image order
+  std::vector<FrameReport> add(const LogMessage& message) { return report(depth_.add(message)); }
+  /// No more messages will come.
+  std::vector<FrameReport> finish() { return report(depth_.finish()); }
+
+  const DepthEngine& engine() const { return depth_.engine(); }
+  const HealthReport& health() const { return depth_.health(); }
+  HealthReport health(std::int64_t now_ns) const { return depth_.health(now_ns); }
+
+  /// For whoever runs the stages in threads of their own.
+  DepthStage& depth() { return depth_; }
+  SiteStage& sites() { return sites_; }
+
+ private:
+  std::vector<FrameReport> report(std::vector<SensedDepth> sensed);
+
+  DepthStage depth_;
+  SiteStage sites_;
 };
 
 /// A circle of the level camera's image in the image of the camera itself.

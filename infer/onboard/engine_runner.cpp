@@ -30,17 +30,26 @@ double RunnerStatistics::latency_ms(double share) const {
 
 EngineRunner::EngineRunner(const MessageQueueConfig& queue, std::unique_ptr<LandingPipeline> pipeline,
                            std::vector<FrameSink*> sinks)
-    : queue_(queue), pipeline_(std::move(pipeline)), sinks_(std::move(sinks)), thread_([this] { run(); }) {}
+    : queue_(queue),
+      pipeline_(std::move(pipeline)),
+      sinks_(std::move(sinks)),
+      depth_thread_([this] { make_depth(); }),
+      site_thread_([this] { make_sites(); }) {}
 
 EngineRunner::~EngineRunner() {
   abandoned_ = true;
   queue_.close();
-  if (thread_.joinable()) thread_.join();
+  stages_.abandon();
+  for (std::thread* thread : {&depth_thread_, &site_thread_}) {
+    if (thread->joinable()) thread->join();
+  }
 }
 
 void EngineRunner::finish() {
   queue_.close();
-  if (thread_.joinable()) thread_.join();
+  if (depth_thread_.joinable()) depth_thread_.join();
+  stages_.close();
+  if (site_thread_.joinable()) site_thread_.join();
   if (failure_) std::rethrow_exception(failure_);
 }
 
@@ -60,27 +69,21 @@ RunnerStatistics EngineRunner::statistics() const {
   return statistics;
 }
 
-void EngineRunner::run() {
+void EngineRunner::make_depth() {
   try {
     while (auto item = queue_.pop()) {
       if (abandoned_) return;
       note_arrival(*item);
-      for (FrameSink* sink : sinks_) sink->on_message(item->message);
-      deliver(pipeline_->add(item->message));
-      tell_health();
+      const auto message = std::make_shared<const LogMessage>(std::move(item->message));
+      stages_.push({message, {}, {}, {}});
+      pass_on(pipeline_->depth().add(*message));
     }
-    if (!abandoned_) deliver(pipeline_->finish());
+    if (abandoned_) return;
+    pass_on(pipeline_->depth().finish());
+    stages_.push({{}, {}, {}, pipeline_->engine().dropped()});
   } catch (...) {
-    const std::lock_guard lock(mutex_);
-    failure_ = std::current_exception();
-    queue_.close();
+    fail(std::current_exception());
   }
-}
-
-void EngineRunner::tell_health() {
-  if (same_findings(pipeline_->health(), told_)) return;
-  told_ = pipeline_->health();
-  for (FrameSink* sink : sinks_) sink->on_health(told_);
 }
 
 void EngineRunner::note_arrival(const MessageQueue::Item& item) {
@@ -90,18 +93,55 @@ void EngineRunner::note_arrival(const MessageQueue::Item& item) {
   while (arrivals_.size() > kMaxArrivals) arrivals_.erase(arrivals_.begin());
 }
 
-void EngineRunner::deliver(const std::vector<FrameReport>& frames) {
-  for (const FrameReport& frame : frames) {
+void EngineRunner::pass_on(std::vector<SensedDepth> depths) {
+  StageEvent event;
+  for (SensedDepth& sensed : depths) {
+    std::optional<SteadyTime> arrived;
+    if (const auto arrival = arrivals_.find(sensed.depth.t_ns); arrival != arrivals_.end()) {
+      arrived = arrival->second;
+      arrivals_.erase(arrival);
+    }
+    event.depths.push_back({std::move(sensed), arrived});
+  }
+  if (!event.depths.empty()) event.dropped = pipeline_->engine().dropped();
+  if (!same_findings(pipeline_->health(), told_)) event.health = told_ = pipeline_->health();
+  if (!event.depths.empty() || event.health) stages_.push(std::move(event));
+}
+
+void EngineRunner::make_sites() {
+  try {
+    while (auto event = stages_.pop()) deliver(std::move(*event));
+  } catch (...) {
+    fail(std::current_exception());
+    stages_.abandon();
+  }
+}
+
+void EngineRunner::deliver(StageEvent event) {
+  if (event.message) {
+    for (FrameSink* sink : sinks_) sink->on_message(*event.message);
+  }
+  for (StageEvent::Depth& depth : event.depths) {
+    const FrameReport frame = pipeline_->sites().report(std::move(depth.sensed));
     for (FrameSink* sink : sinks_) sink->on_frame(frame);
     const std::lock_guard lock(mutex_);
     ++statistics_.images;
-    if (const auto arrival = arrivals_.find(frame.depth.t_ns); arrival != arrivals_.end()) {
-      statistics_.count_latency(milliseconds(arrival->second, steady_now()));
-      arrivals_.erase(arrival);
-    }
+    if (depth.arrived) statistics_.count_latency(milliseconds(*depth.arrived, steady_now()));
   }
+  if (event.dropped) {
+    const std::lock_guard lock(mutex_);
+    statistics_.dropped = std::move(*event.dropped);
+  }
+  if (event.health) {
+    for (FrameSink* sink : sinks_) sink->on_health(*event.health);
+  }
+}
+
+/// The first failure is the one that finish() tells.
+void EngineRunner::fail(std::exception_ptr failure) {
   const std::lock_guard lock(mutex_);
-  statistics_.dropped = pipeline_->engine().dropped();
+  if (!failure_) failure_ = std::move(failure);
+  queue_.close();
 }
 
 }  // namespace alight

@@ -14,6 +14,7 @@
 #include "infer/landing_pipeline.hpp"
 #include "infer/onboard/frame_sink.hpp"
 #include "infer/onboard/message_queue.hpp"
+#include "infer/onboard/stage_queue.hpp"
 
 namespace alight {
 
@@ -34,23 +35,24 @@ struct RunnerStatistics {
   double latency_ms(double share) const;
 };
 
-/// The engine in a thread of its own: what a live node, the ground station and a replay in real time run. Messages go in
-/// from any thread; results go to the sinks. The same messages give the same results as LandingPipeline called directly,
-/// as long as none is pushed out of the queue.
+/// The pipeline's two stages in threads of their own, so that one looks for a site while the other works on the next
+/// image: what a live node, the ground station and a replay in real time run. Messages go in from any thread; results go
+/// to the sinks, all on one thread. The same messages give the same results as LandingPipeline called directly, as long as
+/// none is pushed out of the queue.
 class EngineRunner {
  public:
-  /// Starts the thread. @param sinks outlive the runner
+  /// Starts the threads. @param sinks outlive the runner
   EngineRunner(const MessageQueueConfig& queue, std::unique_ptr<LandingPipeline> pipeline,
                std::vector<FrameSink*> sinks);
   EngineRunner(const EngineRunner&) = delete;
   EngineRunner& operator=(const EngineRunner&) = delete;
-  /// Ends the thread after the message in work; what waits is lost.
+  /// Ends the threads after what they have in work; what waits is lost.
   ~EngineRunner();
 
   /// Any thread; never waits.
   void push(LogMessage message) { queue_.push(std::move(message)); }
-  /// Works off what waits, gives every image its result and ends the thread.
-  /// @throws what the engine or a sink threw on its thread
+  /// Works off what waits, gives every image its result and ends the threads.
+  /// @throws what the pipeline or a sink threw on its thread
   void finish();
   /// The engine or a sink has failed; finish() says why.
   bool failed() const;
@@ -58,21 +60,27 @@ class EngineRunner {
   RunnerStatistics statistics() const;
 
  private:
-  void run();
-  void deliver(const std::vector<FrameReport>& frames);
-  void tell_health();
+  void make_depth();
+  void make_sites();
+  void pass_on(std::vector<SensedDepth> depths);
+  void deliver(StageEvent event);
   void note_arrival(const MessageQueue::Item& item);
+  void fail(std::exception_ptr failure);
 
   MessageQueue queue_;
+  StageQueue stages_;
   std::unique_ptr<LandingPipeline> pipeline_;
   std::vector<FrameSink*> sinks_;
+  // The depth thread's own:
   HealthReport told_;                            // the health that the sinks know
   std::map<std::int64_t, SteadyTime> arrivals_;  // of images without a result yet, by their time
+
   mutable std::mutex mutex_;
   RunnerStatistics statistics_;
   std::exception_ptr failure_;
   std::atomic<bool> abandoned_{false};
-  std::thread thread_;
+  std::thread depth_thread_;
+  std::thread site_thread_;
 };
 
 }  // namespace alight

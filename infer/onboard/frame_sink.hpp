@@ -5,7 +5,7 @@
 
 namespace alight {
 
-/// What is done with the results of a flight: written, sent, shown. Called on the engine's thread, so both calls return
+/// What is done with the results of a flight: written, sent, shown. Called on the thread of the landing sites, so all calls return
 /// at once: whoever has more to do copies the report (its images are shared, not copied) and works elsewhere.
 class FrameSink {
  public:
