@@ -54,6 +54,10 @@ DepthEngine::DepthEngine(const DepthEngineConfig& config, const Rig& rig,
       accumulator_(static_cast<std::size_t>(config.max_points)) {
   if (!rig.lidar0)
     throw ConfigError("the rig has no lidar0: the engine needs a LiDAR; add it to the rig file");
+  if (!rig.cam0.T_camera_imu)
+    throw ConfigError(
+        "the rig's cam0 has no T_cam_imu: without it attitudes say nothing about where the camera looks; add "
+        "it to the rig file");
 }
 
 void DepthEngine::add(const LogMessage& message) {

@@ -413,6 +413,9 @@ TEST(DepthEngine, RefusesAWrongSetUp) {
   Rig blind = fakes::small_rig();
   blind.lidar0.reset();
   EXPECT_THROW(DepthEngine(config_of(false), blind, nullptr), ConfigError);
+  Rig adrift = fakes::small_rig();
+  adrift.cam0.T_camera_imu.reset();
+  EXPECT_THROW(DepthEngine(config_of(false), adrift, nullptr), ConfigError);
 }
 
 /// After half of the flight its LiDAR turns out to be wrong: nothing older goes into later depth.
