@@ -30,7 +30,7 @@ cv::Mat perspective_to_plane(const cv::Mat& range_m, const PinholeIntrinsics& in
   return depth_m;
 }
 
-cv::Mat fill_nearest(const cv::Mat& depth_m, const cv::Mat& region) {
+cv::Mat fill_nearest(const cv::Mat& depth_m, const cv::Mat& region, double max_distance_px) {
   CV_Assert(depth_m.type() == CV_32FC1);
   CV_Assert(region.empty() || (region.type() == CV_8UC1 && region.size() == depth_m.size()));
   cv::Mat filled = cv::Mat::zeros(depth_m.size(), CV_32FC1);
@@ -46,9 +46,11 @@ cv::Mat fill_nearest(const cv::Mat& depth_m, const cv::Mat& region) {
       if (depth != 0.0F) depth_of_label[static_cast<std::size_t>(labels.at<int>(v, u))] = depth;
     }
   }
+  const auto farthest_px = static_cast<float>(max_distance_px);
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
       if (!region.empty() && region.at<std::uint8_t>(v, u) == 0) continue;
+      if (distance_px.at<float>(v, u) > farthest_px) continue;
       filled.at<float>(v, u) = depth_of_label[static_cast<std::size_t>(labels.at<int>(v, u))];
     }
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <opencv2/core.hpp>
 
 #include "geometry/camera.hpp"
@@ -17,8 +19,10 @@ cv::Mat plane_to_perspective(const cv::Mat& depth_m, const PinholeIntrinsics& in
 cv::Mat perspective_to_plane(const cv::Mat& range_m, const PinholeIntrinsics& intrinsics);
 
 /// Nearest-neighbour interpolation: every pixel of `region` (CV_8UC1; empty: all) takes the depth of the
-/// nearest pixel (Euclidean) that has one; outside it is 0. A map without any depth stays empty.
-cv::Mat fill_nearest(const cv::Mat& depth_m, const cv::Mat& region = {});
+/// nearest pixel (Euclidean) that has one and is no farther than `max_distance_px`; elsewhere it is 0. A map without any
+/// depth stays empty.
+cv::Mat fill_nearest(const cv::Mat& depth_m, const cv::Mat& region = {},
+                     double max_distance_px = std::numeric_limits<double>::infinity());
 
 /// Depth as colours (turbo, near = red, far = blue), BGR CV_8UC3; missing is black. With max_m <= min_m the
 /// range is taken from the 1st and 99th percentile.

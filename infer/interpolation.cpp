@@ -5,8 +5,6 @@
 #include <iterator>
 #include <vector>
 
-#include <opencv2/imgproc.hpp>
-
 #include "geometry/depth_map.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/projection.hpp"
@@ -20,10 +18,8 @@ void bind(Binder& b, InterpolationConfig& c) {
 
 cv::Mat interpolate_inside_fov(const cv::Mat& sparse_m, const cv::Mat& fov,
                                const InterpolationConfig& config) {
-  if (config.max_distance_px <= 0 || cv::countNonZero(sparse_m) == 0) return fill_nearest(sparse_m, fov);
-  cv::Mat distance_px;
-  cv::distanceTransform(sparse_m == 0, distance_px, cv::DIST_L2, cv::DIST_MASK_5);
-  return fill_nearest(sparse_m, fov & (distance_px <= config.max_distance_px));
+  if (config.max_distance_px <= 0) return fill_nearest(sparse_m, fov);
+  return fill_nearest(sparse_m, fov, config.max_distance_px);
 }
 
 double median_depth_m(const cv::Mat& depth_m, double otherwise) {

@@ -46,6 +46,7 @@ TEST(DepthMap, FillNearestStaysInsideItsRegion) {
   const cv::Mat filled = fill_nearest(depth, region);
   EXPECT_EQ(cv::countNonZero(filled), 25);
   EXPECT_EQ(filled.at<float>(2, 2), 4);
+  EXPECT_EQ(cv::countNonZero(fill_nearest(depth, region, 1)), 5) << "a pixel and its four neighbours";
 }
 
 TEST(DepthMap, EncodingKeepsMillimetresAndSaturates) {
