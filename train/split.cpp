@@ -1,6 +1,7 @@
 #include "train/split.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 
 namespace alight {
@@ -75,6 +76,17 @@ SampleSplit choose(const std::vector<SampleTime>& samples, const SplitConfig& co
     if (part == Part::kHeldOut) split.held_out.push_back(i);
   }
   return split;
+}
+
+std::string leak_through_gap(const SplitConfig& config, double window_s) {
+  if (config.held_out_blocks.empty() || config.gap_s >= window_s) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "split.gap_s: %g s is less than the %g s over which a depth map of this data set collects "
+                "LiDAR points: "
+                "held-out maps share points with those learned from; set it to %g or more",
+                config.gap_s, window_s, window_s);
+  return text;
 }
 
 }  // namespace alight

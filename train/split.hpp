@@ -37,4 +37,8 @@ struct SampleSplit {
 /// @throws ConfigError if an unknown flight is not among the samples
 SampleSplit choose(const std::vector<SampleTime>& samples, const SplitConfig& config);
 
+/// What is wrong with a gap shorter than the time over which a depth map collects its points: samples on its two sides
+/// share LiDAR points, and the held-out ones are no longer unseen. Empty if nothing is.
+std::string leak_through_gap(const SplitConfig& config, double window_s);
+
 }  // namespace alight

@@ -72,5 +72,16 @@ TEST(Split, BlocksOutsideTheFlightAreRefused) {
             0.6);
 }
 
+TEST(Split, AGapShorterThanTheWindowOfADepthMapLeaks) {
+  SplitConfig config;
+  config.gap_s = 1;
+  EXPECT_EQ(leak_through_gap(config, 2), "") << "nothing is held out";
+  config.held_out_blocks = {{0.4, 0.6}};
+  EXPECT_THAT(leak_through_gap(config, 2),
+              AllOf(HasSubstr("split.gap_s: 1 s"), HasSubstr("set it to 2 or more")));
+  config.gap_s = 2;
+  EXPECT_EQ(leak_through_gap(config, 2), "");
+}
+
 }  // namespace
 }  // namespace alight
