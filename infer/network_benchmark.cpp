@@ -21,12 +21,6 @@ constexpr double kPointShare = 0.05;  // of the pixels, what 0.1 s of a Livox Mi
 
 using Tensors = std::vector<torch::Tensor>;
 
-Tensors pyramid(const torch::Tensor& input, const Tensors& features) {
-  Tensors maps{input};
-  maps.insert(maps.end(), features.begin(), features.end());
-  return maps;
-}
-
 void dump_tensor(const std::filesystem::path& path, const torch::Tensor& x) {
   const torch::Tensor values = x.to(torch::kCPU, torch::kFloat32).contiguous();
   std::ofstream stream(path, std::ios::binary);
@@ -81,13 +75,14 @@ NetworkBenchmark benchmark_network(const std::filesystem::path& checkpoint, cons
   const auto encoded = predictor->encode(view);
   const auto image_part = [&] {
     return network.decoder->image_part(
-        pyramid(image_input, net->image_features(network.prepare(image_input))));
+        feature_pyramid(image_input, net->image_features(network.prepare(image_input))));
   };
   const Tensors known_part = image_part();
   torch::Tensor depth_m;
   const auto refine = [&](const Tensors& part) {
     depth_m =
-        network.decoder->decode(part, pyramid(depth_input, net->depth_features(network.prepare(depth_input))))
+        network.decoder
+            ->decode(part, feature_pyramid(depth_input, net->depth_features(network.prepare(depth_input))))
             .to(torch::kCPU, torch::kFloat32);
   };
   const std::vector<std::pair<const char*, std::function<void()>>> passes{

@@ -55,7 +55,7 @@ class NetworkPredictor : public DepthPredictor {
         {on_device(image_tensor(view.left)), on_device(image_tensor(view.right)), pyramid->prior_m,
          torch::full({1}, rig_.intrinsics.fx_px * rig_.baseline_m, network_.device)});
     pyramid->decoder_part = network_.decoder->image_part(
-        pyramid_of(input, network_.net->image_features(network_.prepare(input))));
+        feature_pyramid(input, network_.net->image_features(network_.prepare(input))));
     return pyramid;
   }
 
@@ -69,7 +69,7 @@ class NetworkPredictor : public DepthPredictor {
     const torch::Tensor predicted =
         network_.decoder
             ->decode(pyramid.decoder_part,
-                     pyramid_of(input, network_.net->depth_features(network_.prepare(input))))
+                     feature_pyramid(input, network_.net->depth_features(network_.prepare(input))))
             .to(torch::kCPU, torch::kFloat32)
             .contiguous();
     const cv::Mat depth_m = cv::Mat(sparse_m.size(), CV_32FC1, predicted.data_ptr<float>()).clone();
@@ -87,12 +87,6 @@ class NetworkPredictor : public DepthPredictor {
   }
 
   torch::Tensor on_device(const torch::Tensor& x) const { return x.defined() ? x.to(network_.device) : x; }
-  static std::vector<torch::Tensor> pyramid_of(const torch::Tensor& input,
-                                               const std::vector<torch::Tensor>& features) {
-    std::vector<torch::Tensor> maps{input};
-    maps.insert(maps.end(), features.begin(), features.end());
-    return maps;
-  }
 
   void warm_up() {
     PredictorView view;

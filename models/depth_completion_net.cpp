@@ -77,12 +77,6 @@ torch::Tensor known_prior(const torch::Tensor& prior_m, const torch::Tensor& lik
   return torch::where(prior_m > 0, prior_m.clamp(c.min_depth_m, c.max_depth_m), scale);
 }
 
-std::vector<torch::Tensor> pyramid(const torch::Tensor& input, const std::vector<torch::Tensor>& features) {
-  std::vector<torch::Tensor> maps{input};
-  maps.insert(maps.end(), features.begin(), features.end());
-  return maps;
-}
-
 }  // namespace
 
 int depth_channels(DepthInput input) {
@@ -125,6 +119,13 @@ void bind(Binder& b, DepthCompletionConfig& c) {
   const std::string wrong = mistake(c);
   const std::size_t colon = wrong.find(": ");
   if (!wrong.empty()) b.check(wrong.substr(0, colon), false, "expected " + wrong.substr(colon + 2));
+}
+
+std::vector<torch::Tensor> feature_pyramid(const torch::Tensor& input,
+                                           const std::vector<torch::Tensor>& features) {
+  std::vector<torch::Tensor> maps{input};
+  maps.insert(maps.end(), features.begin(), features.end());
+  return maps;
 }
 
 DepthCompletionNetImpl::DepthCompletionNetImpl(const DepthCompletionConfig& config) : config_(config) {
@@ -200,13 +201,13 @@ std::vector<torch::Tensor> DepthCompletionNetImpl::depth_features(const torch::T
 
 std::vector<torch::Tensor> DepthCompletionNetImpl::encode_image(const SceneView& view) {
   const torch::Tensor input = image_input(view);  // [B,C,H,W]
-  return pyramid(input, image_features(input));
+  return feature_pyramid(input, image_features(input));
 }
 
 std::vector<torch::Tensor> DepthCompletionNetImpl::encode_depth(const torch::Tensor& sparse_m,
                                                                 const torch::Tensor& prior_m) {
   const torch::Tensor input = depth_input(sparse_m, prior_m);  // [B,C,H,W]
-  return pyramid(input, depth_features(input));
+  return feature_pyramid(input, depth_features(input));
 }
 
 torch::Tensor DepthCompletionNetImpl::decode(const std::vector<torch::Tensor>& image_pyramid,

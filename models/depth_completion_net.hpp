@@ -68,6 +68,10 @@ constexpr std::int64_t kPrior = 4;
 constexpr double kLargestPriorCorrection = 2.0;
 constexpr double kLargestFillCorrection = 0.5;
 
+/// [0] a normalised input [B,C,H,W], then its features, fine to coarse: what the decoder takes.
+std::vector<torch::Tensor> feature_pyramid(const torch::Tensor& input,
+                                           const std::vector<torch::Tensor>& features);
+
 /// ResNet-18 encoder-decoder for depth completion (paper 3.2; METHOD, "Network"). Image and sparse depth are
 /// encoded separately, so that an image is encoded once and only the depth branch and the decoder run again
 /// as points arrive:
