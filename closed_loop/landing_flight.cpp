@@ -7,6 +7,7 @@
 #include <map>
 
 #include "closed_loop/message_feed.hpp"
+#include "closed_loop/vehicle_contact.hpp"
 #include "geometry/frames.hpp"
 #include "infer/mission/landing_mission.hpp"
 #include "sim/simulated_flight.hpp"
@@ -27,20 +28,6 @@ double landing_start_yaw(std::int64_t seed) {
       .uniform(0, -kPi, kPi);
 }
 
-/// Highest surface inside a circle.
-double highest_m(const sim::SurfaceTruth& truth, const Eigen::Vector2d& middle, double radius_m) {
-  constexpr double kStep_m = 0.2;
-  double highest = -1e9;
-  for (double y_m = -radius_m; y_m <= radius_m; y_m += kStep_m) {
-    for (double x_m = -radius_m; x_m <= radius_m; x_m += kStep_m) {
-      if (std::hypot(x_m, y_m) > radius_m) continue;
-      const double top_m = truth.elevation_m(middle.x() + x_m, middle.y() + y_m);
-      if (top_m > highest) highest = top_m;  // false for NaN
-    }
-  }
-  return highest;
-}
-
 }  // namespace
 
 class LandingFlight::Impl {
@@ -49,7 +36,7 @@ class LandingFlight::Impl {
        const PlannedFault& fault);
 
   FlownLanding fly(sim::BagWriter* bag);
-  const sim::SurfaceTruth& surface_truth() const { return truth_; }
+  const sim::SurfaceTruth& surface_truth() const { return end_truth_ ? *end_truth_ : truth_; }
 
  private:
   Eigen::Vector3d start() const;
@@ -73,7 +60,8 @@ class LandingFlight::Impl {
   RectifiedRig rectified_;
   sim::World world_;
   sim::Renderer renderer_;
-  sim::SurfaceTruth truth_;
+  sim::SurfaceTruth truth_;                     // at the start of the flight
+  std::optional<sim::SurfaceTruth> end_truth_;  // where things move: at its end
   sim::SensorsConfig sensors_;
   double longest_s_;
   std::int64_t start_ns_;
@@ -218,7 +206,11 @@ void LandingFlight::Impl::fly_to(double t_s) {
 void LandingFlight::Impl::touch() {
   const Eigen::Vector3d& p = vehicle_.p_world();
   const double low_m = p.z() - config_.flight.skid_height_m;
-  if (low_m > highest_m(truth_, p.head<2>(), config_.flight.skid_radius_m)) return;
+  const double radius_m = config_.flight.skid_radius_m;
+  const bool met =
+      low_m <= highest_m(truth_, p.head<2>(), radius_m) ||
+      (!world_.movers().empty() && reached_from_below(renderer_, p, radius_m, low_m, vehicle_.now_s()));
+  if (!met) return;
   vehicle_.stop();
   if (command_.state == MissionState::kFinalDescent) return;
   ended_ = true;
@@ -241,7 +233,8 @@ void LandingFlight::Impl::look_for_collisions() {
     for (std::size_t i = 0; i < rim.size(); ++i) way[i] = rim[i] - ring_[i];
     const double length_m = way.front().norm();
     std::vector<sim::Hit> hits;
-    if (length_m > 1e-6) renderer_.cast_many(ring_, way, hits);
+    const std::vector<double> times_s(rim.size(), vehicle_.now_s());
+    if (length_m > 1e-6) renderer_.cast_many(ring_, way, hits, times_s);
     for (const sim::Hit& hit : hits) {
       if (!hit.hit || hit.range_m > length_m) continue;
       vehicle_.stop();
@@ -261,7 +254,8 @@ void LandingFlight::Impl::note_end(std::int64_t t_ns) {
   if (command_.state == MissionState::kTouchdown) {
     ended_ = true;
     const Eigen::Vector3d& p = vehicle_.p_world();
-    const bool safe = truth_.clearance_m(p.x(), p.y()) >= config_.flight.body_radius_m;
+    if (!world_.movers().empty()) end_truth_.emplace(renderer_, config_.surface_truth, end_s_);
+    const bool safe = surface_truth().clearance_m(p.x(), p.y()) >= config_.flight.body_radius_m;
     outcome_ = safe ? Outcome::kSafe : Outcome::kUnsafe;
     reason_ = command_.reason;
   } else if (command_.state == MissionState::kGivenUp && command_.since_s >= kAfterGivingUp_s) {
@@ -324,7 +318,7 @@ LandingResult LandingFlight::Impl::result() const {
   r.safe_radius_m = widest_safe_radius_m(truth_, start().head<2>(), config_.mission.geofence_radius_m);
   r.p_end = vehicle_.p_world();
   if (r.landed()) {
-    r.footprint = measure_footprint(truth_, r.p_end.head<2>(), config_.flight.body_radius_m);
+    r.footprint = measure_footprint(surface_truth(), r.p_end.head<2>(), config_.flight.body_radius_m);
     if (target && mission_.p_world())
       r.miss_m = (*mission_.p_world() - target->place.p_world).head<2>().norm();
   }

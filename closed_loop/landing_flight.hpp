@@ -48,6 +48,7 @@ class LandingFlight {
   /// Flies to the end. @param bag gets every message as the sensors send it, faults not in it; null: none is kept
   FlownLanding fly(sim::BagWriter* bag = nullptr);
 
+  /// At the start of the flight; in a world that moves, after a touchdown at its time.
   const sim::SurfaceTruth& surface_truth() const;
 
  private:
