@@ -51,6 +51,8 @@ std::string plan_json(const CampaignPlan& plan) {
                                        {"lidar_only", plan.lidar_only},
                                        {"fault_from_s", plan.fault_from_s},
                                        {"fault_to_s", plan.fault_to_s},
+                                       {"fault_lasts_s", plan.fault_lasts_s},
+                                       {"lasting_share", plan.lasting_share},
                                        {"worlds", plan.worlds}};
   return json.dump(1) + "\n";
 }
@@ -71,6 +73,8 @@ CampaignPlan read_plan(const fs::path& path) {
     plan.lidar_only = json.at("lidar_only").get<bool>();
     plan.fault_from_s = json.at("fault_from_s").get<double>();
     plan.fault_to_s = json.at("fault_to_s").get<double>();
+    plan.fault_lasts_s = json.at("fault_lasts_s").get<std::vector<double>>();
+    plan.lasting_share = json.at("lasting_share").get<double>();
     plan.worlds = json.at("worlds").get<int>();
     return plan;
   } catch (const nlohmann::json::exception& e) {
@@ -84,6 +88,10 @@ void check(const CampaignPlan& plan) {
   if (plan.looks.empty()) throw ConfigError("--looks: name at least one");
   for (const std::string& look : plan.looks) look_of(look);
   for (const std::string& fault : plan.faults) fault_of(fault);
+  if (plan.fault_from_s > plan.fault_to_s) throw ConfigError("--fault-from: must not exceed --fault-to");
+  const std::vector<double>& lasts_s = plan.fault_lasts_s;
+  if (!lasts_s.empty() && (lasts_s.size() != 2 || lasts_s[0] <= 0 || lasts_s[1] < lasts_s[0]))
+    throw ConfigError("--fault-duration: name the shortest and the longest time in seconds, such as 2,10");
 }
 
 CampaignLanding planned(const CampaignPlan& plan, int index) {
@@ -97,6 +105,8 @@ CampaignLanding planned(const CampaignPlan& plan, int index) {
   if (landing.fault.fault == nullptr) return landing;
   const sim::CounterRandom random(static_cast<std::uint64_t>(landing.seed), sim::RandomStream::kLandingFault);
   landing.fault.at_s = random.uniform(0, plan.fault_from_s, plan.fault_to_s);
+  if (!plan.fault_lasts_s.empty() && random.uniform(2) >= plan.lasting_share)
+    landing.fault.lasts_s = random.uniform(1, plan.fault_lasts_s.front(), plan.fault_lasts_s.back());
   return landing;
 }
 

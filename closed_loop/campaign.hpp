@@ -20,6 +20,9 @@ struct CampaignPlan {
   bool lidar_only = false;
   double fault_from_s = 2;  ///< a fault strikes between these moments, uniformly
   double fault_to_s = 40;
+  /// A fault that passes lasts for a time between these two, uniformly. Empty: none passes.
+  std::vector<double> fault_lasts_s;
+  double lasting_share = 0;  ///< of the faults, which stay to the end although fault_lasts_s is given
 };
 
 /// Landing i of a plan.

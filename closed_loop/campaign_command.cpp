@@ -119,6 +119,16 @@ Command add_campaign_command(CLI::App& app) {
   command->add_option("--fault-from", plan.fault_from_s, "Earliest second at which one strikes")
       ->capture_default_str();
   command->add_option("--fault-to", plan.fault_to_s, "Latest second")->capture_default_str();
+  command
+      ->add_option("--fault-duration", plan.fault_lasts_s,
+                   "Shortest and longest time of a failure that passes, such as 2,10; without: all stay")
+      ->delimiter(',')
+      ->expected(2);
+  command
+      ->add_option("--lasting-share", plan.lasting_share,
+                   "With --fault-duration: share (0..1) of the failures that stay all the same")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--lidar-only", plan.lidar_only, "No network");
   command->add_option("-j,--jobs", options->jobs, "Landings at a time")
       ->capture_default_str()

@@ -95,7 +95,7 @@ std::string campaign_report(const std::vector<LandingResult>& rows, double wante
   for (const LandingResult& r : rows) {
     all.add(r, wanted_radius_m);
     by_look[r.look].add(r, wanted_radius_m);
-    by_fault[r.fault].add(r, wanted_radius_m);
+    by_fault[r.fault_kind()].add(r, wanted_radius_m);
   }
   std::string page = head("") + row("all", all) + "\n" + head("look");
   for (const auto& [look, counts] : by_look) page += row(look, counts);
@@ -110,7 +110,7 @@ std::string campaign_report(const std::vector<LandingResult>& rows, double wante
       "\nA site is within reach where the truth has safe ground of %.1f m radius inside the geofence. Unsafe "
       "touchdowns and collisions: %d of %d landings, 95 %% interval %.2f to %.2f %%. %d touchdowns at a "
       "least "
-      "bad site. Computing took %.1f s a landing.\n",
+      "bad site. Computing took %.1f s of a core a landing.\n",
       wanted_radius_m, all.unsafe + all.collided, all.landings, 100 * unsafe.low, 100 * unsafe.high,
       all.least_bad, all.landings > 0 ? all.cost_s / all.landings : 0.0);
   page += text;

@@ -28,11 +28,13 @@ struct LandOptions {
   bool print_states = false;
   std::string fault;
   double fault_at_s = 10;
+  std::optional<double> fault_lasts_s;
 };
 
 PlannedFault planned_fault(const LandOptions& options) {
   if (options.fault.empty()) return {};
-  if (const sim::Fault* fault = sim::find_fault(options.fault)) return {fault, options.fault_at_s};
+  if (const sim::Fault* fault = sim::find_fault(options.fault))
+    return {fault, options.fault_at_s, options.fault_lasts_s};
   std::string known;
   for (const sim::Fault& fault : sim::all_faults()) known += "\n  " + fault.name;
   throw ConfigError("--fault " + options.fault + ": no such fault; there are" + known);
@@ -119,6 +121,8 @@ Command add_land_command(CLI::App& app) {
   command->add_option("--fault", options->fault, "A sensor failure by its name, such as \"LiDAR lost\"");
   command->add_option("--fault-at", options->fault_at_s, "Seconds after the begin at which it strikes")
       ->capture_default_str();
+  command->add_option("--fault-duration", options->fault_lasts_s,
+                      "Seconds after which it passes; without: it stays");
   command->add_flag("--print-states", options->print_states, "Print the tables of docs/mission.md");
   command->footer(
       "Examples:\n"

@@ -1,12 +1,13 @@
 #include "closed_loop/landing_flight.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <deque>
 #include <map>
 
 #include "closed_loop/message_feed.hpp"
+#include "closed_loop/vehicle_contact.hpp"
 #include "geometry/frames.hpp"
 #include "infer/mission/landing_mission.hpp"
 #include "sim/simulated_flight.hpp"
@@ -18,24 +19,13 @@ constexpr double kTrackPeriod_s = 0.1;
 constexpr double kAfterGivingUp_s = 1.0;
 constexpr double kEnoughAfterCritical_s = 90;  // of the longest flight: the way up and a last descent
 
+/// What this process has used of all cores.
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 double landing_start_yaw(std::int64_t seed) {
   constexpr double kPi = 3.14159265358979323846;
   return sim::CounterRandom(static_cast<std::uint64_t>(seed), sim::RandomStream::kLandingStart)
       .uniform(0, -kPi, kPi);
-}
-
-/// Highest surface inside a circle.
-double highest_m(const sim::SurfaceTruth& truth, const Eigen::Vector2d& middle, double radius_m) {
-  constexpr double kStep_m = 0.2;
-  double highest = -1e9;
-  for (double y_m = -radius_m; y_m <= radius_m; y_m += kStep_m) {
-    for (double x_m = -radius_m; x_m <= radius_m; x_m += kStep_m) {
-      if (std::hypot(x_m, y_m) > radius_m) continue;
-      const double top_m = truth.elevation_m(middle.x() + x_m, middle.y() + y_m);
-      if (top_m > highest) highest = top_m;  // false for NaN
-    }
-  }
-  return highest;
 }
 
 }  // namespace
@@ -46,7 +36,7 @@ class LandingFlight::Impl {
        const PlannedFault& fault);
 
   FlownLanding fly(sim::BagWriter* bag);
-  const sim::SurfaceTruth& surface_truth() const { return truth_; }
+  const sim::SurfaceTruth& surface_truth() const { return end_truth_ ? *end_truth_ : truth_; }
 
  private:
   Eigen::Vector3d start() const;
@@ -63,13 +53,15 @@ class LandingFlight::Impl {
   std::int64_t true_ns(std::int64_t clock_ns) const { return clock_ns - start_ns_; }
   LandingResult result() const;
 
+  double begun_s_ = processor_s();
   LandConfig config_;
   std::int64_t seed_;
   Rig rig_;
   RectifiedRig rectified_;
   sim::World world_;
   sim::Renderer renderer_;
-  sim::SurfaceTruth truth_;
+  sim::SurfaceTruth truth_;                     // at the start of the flight
+  std::optional<sim::SurfaceTruth> end_truth_;  // where things move: at its end
   sim::SensorsConfig sensors_;
   double longest_s_;
   std::int64_t start_ns_;
@@ -124,7 +116,10 @@ LandingFlight::Impl::Impl(const LandConfig& config, std::int64_t seed,
       lidar_only_(predictor == nullptr),
       fault_(fault),
       next_command_ns_(start_ns_) {
-  if (fault_.fault != nullptr) filter_ = fault_.fault->begin(start_ns_ + to_nanoseconds(fault_.at_s));
+  if (fault_.fault == nullptr) return;
+  filter_ = fault_.fault->begin(start_ns_ + to_nanoseconds(fault_.at_s));
+  if (fault_.lasts_s)
+    filter_ = sim::passing(std::move(filter_), start_ns_ + to_nanoseconds(fault_.at_s + *fault_.lasts_s));
 }
 
 /// Over the middle of the world, high enough over everything that the search may come to.
@@ -211,7 +206,11 @@ void LandingFlight::Impl::fly_to(double t_s) {
 void LandingFlight::Impl::touch() {
   const Eigen::Vector3d& p = vehicle_.p_world();
   const double low_m = p.z() - config_.flight.skid_height_m;
-  if (low_m > highest_m(truth_, p.head<2>(), config_.flight.skid_radius_m)) return;
+  const double radius_m = config_.flight.skid_radius_m;
+  const bool met =
+      low_m <= highest_m(truth_, p.head<2>(), radius_m) ||
+      (!world_.movers().empty() && reached_from_below(renderer_, p, radius_m, low_m, vehicle_.now_s()));
+  if (!met) return;
   vehicle_.stop();
   if (command_.state == MissionState::kFinalDescent) return;
   ended_ = true;
@@ -234,7 +233,8 @@ void LandingFlight::Impl::look_for_collisions() {
     for (std::size_t i = 0; i < rim.size(); ++i) way[i] = rim[i] - ring_[i];
     const double length_m = way.front().norm();
     std::vector<sim::Hit> hits;
-    if (length_m > 1e-6) renderer_.cast_many(ring_, way, hits);
+    const std::vector<double> times_s(rim.size(), vehicle_.now_s());
+    if (length_m > 1e-6) renderer_.cast_many(ring_, way, hits, times_s);
     for (const sim::Hit& hit : hits) {
       if (!hit.hit || hit.range_m > length_m) continue;
       vehicle_.stop();
@@ -254,7 +254,8 @@ void LandingFlight::Impl::note_end(std::int64_t t_ns) {
   if (command_.state == MissionState::kTouchdown) {
     ended_ = true;
     const Eigen::Vector3d& p = vehicle_.p_world();
-    const bool safe = truth_.clearance_m(p.x(), p.y()) >= config_.flight.body_radius_m;
+    if (!world_.movers().empty()) end_truth_.emplace(renderer_, config_.surface_truth, end_s_);
+    const bool safe = surface_truth().clearance_m(p.x(), p.y()) >= config_.flight.body_radius_m;
     outcome_ = safe ? Outcome::kSafe : Outcome::kUnsafe;
     reason_ = command_.reason;
   } else if (command_.state == MissionState::kGivenUp && command_.since_s >= kAfterGivingUp_s) {
@@ -264,7 +265,6 @@ void LandingFlight::Impl::note_end(std::int64_t t_ns) {
 }
 
 FlownLanding LandingFlight::Impl::fly(sim::BagWriter* bag) {
-  const auto begun = std::chrono::steady_clock::now();
   for (const sim::ScheduledMessage& message : sim::message_schedule(sensors_, longest_s_)) {
     if (over()) break;
     const bool camera = message.stream == sim::SensorStream::kCamera;
@@ -281,7 +281,7 @@ FlownLanding LandingFlight::Impl::fly(sim::BagWriter* bag) {
   if (!over()) reason_ = std::string("the longest flight is over in state ") + name(command_.state);
   FlownLanding flown;
   flown.result = result();
-  flown.result.cost_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  flown.result.cost_s = processor_s() - begun_s_;
   track_.push_back({vehicle_.now_s(), vehicle_.p_world(), command_.state});
   flown.track = track_;
   flown.fence_m = config_.mission.geofence_radius_m;
@@ -297,6 +297,7 @@ LandingResult LandingFlight::Impl::result() const {
   if (fault_.fault != nullptr) {
     r.fault = fault_.fault->name;
     r.fault_s = fault_.at_s;
+    r.fault_lasts_s = fault_.lasts_s;
   }
   r.lidar_only = lidar_only_;
   r.images = config_.flight.images;
@@ -317,7 +318,7 @@ LandingResult LandingFlight::Impl::result() const {
   r.safe_radius_m = widest_safe_radius_m(truth_, start().head<2>(), config_.mission.geofence_radius_m);
   r.p_end = vehicle_.p_world();
   if (r.landed()) {
-    r.footprint = measure_footprint(truth_, r.p_end.head<2>(), config_.flight.body_radius_m);
+    r.footprint = measure_footprint(surface_truth(), r.p_end.head<2>(), config_.flight.body_radius_m);
     if (target && mission_.p_world())
       r.miss_m = (*mission_.p_world() - target->place.p_world).head<2>().norm();
   }

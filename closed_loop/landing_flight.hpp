@@ -12,10 +12,11 @@
 
 namespace alight::closed_loop {
 
-/// A fault and when it strikes.
+/// A fault, when it strikes and for how long.
 struct PlannedFault {
   const sim::Fault* fault = nullptr;
-  double at_s = 0;  ///< after the flight's begin
+  double at_s = 0;                ///< after the flight's begin
+  std::optional<double> lasts_s;  ///< none: to the end of the flight
 };
 
 /// Where the vehicle was, in the simulator's world.
@@ -47,6 +48,7 @@ class LandingFlight {
   /// Flies to the end. @param bag gets every message as the sensors send it, faults not in it; null: none is kept
   FlownLanding fly(sim::BagWriter* bag = nullptr);
 
+  /// At the start of the flight; in a world that moves, after a touchdown at its time.
   const sim::SurfaceTruth& surface_truth() const;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,113 @@ Outcome outcome_of(const std::string& text) {
     if (text == row.name) return row.outcome;
   }
   throw DataError("no such outcome: " + text);
+}
+
+MissionState state_of(const std::string& text) {
+  for (const MissionState state : kMissionStates) {
+    if (text == name(state)) return state;
+  }
+  throw DataError("no such state: " + text);
+}
+
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
+using Events = std::vector<MissionMachine::Event>;
+
+// What JSON has no type for.
+template <class T>
+OrderedJson write(const T& value) {
+  return value;
+}
+OrderedJson write(const Outcome& outcome) { return name(outcome); }
+OrderedJson write(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+OrderedJson write(const Footprint& f) {
+  return {{"slope_deg", f.slope_deg},
+          {"residual_m", f.residual_m},
+          {"landable_share", f.landable_share},
+          {"clearance_m", f.clearance_m}};
+}
+OrderedJson write(const Events& events) {
+  OrderedJson list = OrderedJson::array();
+  for (const auto& event : events)
+    list.push_back({{"t_ns", event.t_ns}, {"to", name(event.to)}, {"reason", event.reason}});
+  return list;
+}
+template <class T>
+OrderedJson write(const std::optional<T>& value) {
+  return value ? write(*value) : OrderedJson(nullptr);
+}
+
+template <class T>
+void read(const Json& json, T& value) {
+  json.get_to(value);
+}
+void read(const Json& json, Outcome& outcome) { outcome = outcome_of(json.get<std::string>()); }
+void read(const Json& json, Eigen::Vector3d& p) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    p[axis] = json.at(static_cast<std::size_t>(axis)).get<double>();
+}
+void read(const Json& json, Footprint& f) {
+  f = {json.at("slope_deg").get<double>(), json.at("residual_m").get<double>(),
+       json.at("landable_share").get<double>(), json.at("clearance_m").get<double>()};
+}
+void read(const Json& json, Events& events) {
+  for (const Json& row : json) {
+    MissionMachine::Event event;
+    event.t_ns = row.at("t_ns").get<std::int64_t>();
+    event.to = state_of(row.at("to").get<std::string>());
+    event.from = events.empty() ? MissionState::kManual : events.back().to;
+    event.reason = row.at("reason").get<std::string>();
+    events.push_back(std::move(event));
+  }
+}
+template <class T>
+void read(const Json& json, std::optional<T>& value) {
+  if (!json.is_null()) read(json, value.emplace());
+}
+
+/// A key of a row.
+struct Field {
+  const char* key;
+  std::function<OrderedJson(const LandingResult&)> write;
+  std::function<void(const Json&, LandingResult&)> read;
+};
+
+template <class T>
+Field field(const char* key, T LandingResult::*member) {
+  return {key, [member](const LandingResult& r) { return write(r.*member); },
+          [member](const Json& json, LandingResult& r) { read(json, r.*member); }};
+}
+
+/// All keys of a row, in its order.
+const std::vector<Field>& fields() {
+  using R = LandingResult;
+  static const std::vector<Field> kFields = {
+      field("seed", &R::seed),
+      field("look", &R::look),
+      field("fault", &R::fault),
+      field("fault_s", &R::fault_s),
+      field("fault_lasts_s", &R::fault_lasts_s),
+      field("lidar_only", &R::lidar_only),
+      field("images", &R::images),
+      field("outcome", &R::outcome),
+      field("reason", &R::reason),
+      field("duration_s", &R::duration_s),
+      field("attempts", &R::attempts),
+      field("wandered", &R::wandered),
+      field("climbed_away", &R::climbed_away),
+      field("least_bad", &R::least_bad),
+      field("accumulation_s", &R::accumulation_s),
+      field("frames", &R::frames),
+      field("frames_with_depth", &R::frames_with_depth),
+      field("safe_radius_m", &R::safe_radius_m),
+      field("p_end", &R::p_end),
+      field("miss_m", &R::miss_m),
+      field("footprint", &R::footprint),
+      field("cost_s", &R::cost_s),
+      field("events", &R::events),
+  };
+  return kFields;
 }
 
 std::string format(const char* pattern, double a) {
@@ -80,6 +188,7 @@ double widest_safe_radius_m(const sim::SurfaceTruth& truth, const Eigen::Vector2
 std::string describe(const LandingResult& r, double wanted_radius_m) {
   std::string text = r.look + " " + std::to_string(r.seed);
   if (r.fault != "none") text += ", " + r.fault + format(" at %.1f s", r.fault_s);
+  if (r.fault_lasts_s) text += format(" for %.1f s", *r.fault_lasts_s);
   text += ": ";
   if (r.landed()) {
     const Footprint& f = *r.footprint;
@@ -100,37 +209,7 @@ std::string describe(const LandingResult& r, double wanted_radius_m) {
 
 std::string to_json(const LandingResult& r) {
   nlohmann::ordered_json json;
-  json["seed"] = r.seed;
-  json["look"] = r.look;
-  json["fault"] = r.fault;
-  json["fault_s"] = r.fault_s;
-  json["lidar_only"] = r.lidar_only;
-  json["images"] = r.images;
-  json["outcome"] = name(r.outcome);
-  json["reason"] = r.reason;
-  json["duration_s"] = r.duration_s;
-  json["attempts"] = r.attempts;
-  json["wandered"] = r.wandered;
-  json["climbed_away"] = r.climbed_away;
-  json["least_bad"] = r.least_bad;
-  json["accumulation_s"] = r.accumulation_s;
-  json["frames"] = r.frames;
-  json["frames_with_depth"] = r.frames_with_depth;
-  json["safe_radius_m"] = r.safe_radius_m;
-  json["p_end"] = {r.p_end.x(), r.p_end.y(), r.p_end.z()};
-  json["miss_m"] = r.miss_m;
-  json["footprint"] = nullptr;
-  if (r.footprint) {
-    json["footprint"] = {{"slope_deg", r.footprint->slope_deg},
-                         {"residual_m", r.footprint->residual_m},
-                         {"landable_share", r.footprint->landable_share},
-                         {"clearance_m", r.footprint->clearance_m}};
-  }
-  json["cost_s"] = r.cost_s;
-  json["events"] = nlohmann::ordered_json::array();
-  for (const auto& event : r.events) {
-    json["events"].push_back({{"t_ns", event.t_ns}, {"to", name(event.to)}, {"reason", event.reason}});
-  }
+  for (const Field& field : fields()) json[field.key] = field.write(r);
   return json.dump();
 }
 
@@ -138,31 +217,7 @@ LandingResult result_from_json(const std::string& line, const std::string& where
   try {
     const auto json = nlohmann::json::parse(line);
     LandingResult r;
-    r.seed = json.at("seed").get<int>();
-    r.look = json.at("look").get<std::string>();
-    r.fault = json.at("fault").get<std::string>();
-    r.fault_s = json.at("fault_s").get<double>();
-    r.lidar_only = json.at("lidar_only").get<bool>();
-    r.images = json.at("images").get<bool>();
-    r.outcome = outcome_of(json.at("outcome").get<std::string>());
-    r.reason = json.at("reason").get<std::string>();
-    r.duration_s = json.at("duration_s").get<double>();
-    r.attempts = json.at("attempts").get<int>();
-    r.wandered = json.at("wandered").get<int>();
-    r.climbed_away = json.at("climbed_away").get<int>();
-    r.least_bad = json.at("least_bad").get<bool>();
-    r.accumulation_s = json.at("accumulation_s").get<double>();
-    r.frames = json.at("frames").get<int>();
-    r.frames_with_depth = json.at("frames_with_depth").get<int>();
-    r.safe_radius_m = json.at("safe_radius_m").get<double>();
-    const auto& p = json.at("p_end");
-    r.p_end = {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
-    r.miss_m = json.at("miss_m").get<double>();
-    if (const auto& f = json.at("footprint"); !f.is_null()) {
-      r.footprint = Footprint{f.at("slope_deg").get<double>(), f.at("residual_m").get<double>(),
-                              f.at("landable_share").get<double>(), f.at("clearance_m").get<double>()};
-    }
-    r.cost_s = json.at("cost_s").get<double>();
+    for (const Field& field : fields()) field.read(json.at(field.key), r);
     return r;
   } catch (const nlohmann::json::exception& e) {
     throw DataError(where + ": is no row of a campaign: " + e.what());

@@ -38,7 +38,8 @@ struct LandingResult {
   int seed = 0;
   std::string look;
   std::string fault = "none";
-  double fault_s = 0;  ///< when it struck; 0 without fault
+  double fault_s = 0;                   ///< when it struck; 0 without fault
+  std::optional<double> fault_lasts_s;  ///< none: to the end
   bool lidar_only = true;
   bool images = true;
   Outcome outcome = Outcome::kGaveUp;
@@ -55,9 +56,11 @@ struct LandingResult {
   Eigen::Vector3d p_end = Eigen::Vector3d::Zero();
   double miss_m = 0;  ///< from the chosen site to the touchdown, both as the vehicle saw them
   std::optional<Footprint> footprint;
-  double cost_s = 0;  ///< of this computer's time
+  double cost_s = 0;  ///< of this computer's processor time, the making of the world in it
   std::vector<MissionMachine::Event> events;
 
+  /// "LiDAR lost", "LiDAR lost for a while"
+  std::string fault_kind() const { return fault + (fault_lasts_s ? " for a while" : ""); }
   bool landed() const { return outcome == Outcome::kSafe || outcome == Outcome::kUnsafe; }
 };
 

@@ -186,6 +186,12 @@ FaultFilter autopilot_clock_jumps(std::int64_t from_ns) {
 
 }  // namespace
 
+FaultFilter passing(FaultFilter fault, std::int64_t until_ns) {
+  return [fault = std::move(fault), until_ns](TimedMessage& timed) {
+    return timed.receive_ns >= until_ns || fault(timed);
+  };
+}
+
 const std::vector<Fault>& all_faults() {
   using T = std::int64_t;
   static const std::vector<Fault> kFaults = {

@@ -30,6 +30,9 @@ struct Fault {
   std::function<FaultFilter(std::int64_t from_ns)> begin;
 };
 
+/// A fault that is over with the messages that would arrive at `until_ns` or later.
+FaultFilter passing(FaultFilter fault, std::int64_t until_ns);
+
 /// Every fault.
 const std::vector<Fault>& all_faults();
 /// Null if there is none of that name.

@@ -9,7 +9,7 @@ namespace {
 const std::vector<std::pair<Hardship, std::string>> kNames = {
     {Hardship::kStones, "stones"}, {Hardship::kKerbs, "kerbs"},         {Hardship::kWires, "wires"},
     {Hardship::kSlopes, "slopes"}, {Hardship::kClearings, "clearings"}, {Hardship::kSnow, "snow"},
-    {Hardship::kDusk, "dusk"}};
+    {Hardship::kDusk, "dusk"},     {Hardship::kTraffic, "traffic"},     {Hardship::kPeople, "people"}};
 
 }  // namespace
 
@@ -19,6 +19,12 @@ std::vector<Hardship> all_hardships() {
   std::vector<Hardship> all;
   for (const auto& [hardship, name] : kNames) all.push_back(hardship);
   return all;
+}
+
+std::string hardship_names() {
+  std::string names;
+  for (const auto& [hardship, name] : kNames) names += (names.empty() ? "" : ", ") + name;
+  return names;
 }
 
 bool Hardships::has(Hardship hardship) const {

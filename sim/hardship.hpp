@@ -13,13 +13,17 @@ enum class Hardship {
   kSlopes,     ///< open ground leans by 6 to 14 deg, around what a vehicle stands on
   kClearings,  ///< level open ground is small, 2.2 to 4 m in radius, and there is more of it
   kSnow,       ///< natural ground is white and nearly without texture
-  kDusk        ///< the sun a few degrees high, a fifth of a day's light
+  kDusk,       ///< the sun a few degrees high, a fifth of a day's light
+  kTraffic,    ///< cars drive along the roads, where there are any
+  kPeople      ///< people walk to and fro over open ground
 };
 
 /// The hardship's name in YAML.
 std::string to_string(Hardship hardship);
 /// Every hardship, in the order of the enumeration.
 std::vector<Hardship> all_hardships();
+/// Their names, comma-separated.
+std::string hardship_names();
 
 /// Which hardships a world has; written as a list of names.
 struct Hardships {

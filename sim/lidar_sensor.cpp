@@ -121,6 +121,8 @@ std::vector<Hit> LidarSensor::echoes(std::int64_t first, const std::vector<Eigen
   const std::size_t rays = wide ? kFootprintRays : 1;
   std::vector<Eigen::Vector3d> origins;
   std::vector<Eigen::Vector3d> directions;
+  std::vector<double> times_s;
+  const bool moving = !renderer_.world().movers().empty();
   origins.reserve(rays * directions_lidar.size());
   directions.reserve(rays * directions_lidar.size());
   for (std::size_t i = 0; i < directions_lidar.size(); ++i) {
@@ -131,10 +133,11 @@ std::vector<Hit> LidarSensor::echoes(std::int64_t first, const std::vector<Eigen
           wide ? footprint_ray(centre, config_, footprint_random_, counter + 2 * k, k) : centre;
       origins.push_back(T_world_lidar[i].translation());
       directions.emplace_back(T_world_lidar[i].linear() * ray);
+      if (moving) times_s.push_back(to_seconds((first + static_cast<std::int64_t>(i)) * kLivoxShotPeriod_ns));
     }
   }
   std::vector<Hit> hits;
-  renderer_.cast_many(origins, directions, hits);
+  renderer_.cast_many(origins, directions, hits, times_s);
   if (!wide) return hits;
   std::vector<Hit> merged(directions_lidar.size());
   for (std::size_t i = 0; i < merged.size(); ++i) merged[i] = merge_footprint(&hits[i * rays]);

@@ -25,7 +25,8 @@ struct LidarScan {
   std::vector<LidarShot> shots;
 };
 
-/// A Livox Mid-40 on a moving vehicle: every shot leaves from where the vehicle is at the shot's own time.
+/// A Livox Mid-40 on a moving vehicle: every shot leaves from where the vehicle is at the shot's own time, and
+/// meets what moves where that is at the same time.
 class LidarSensor {
  public:
   /// Renderer and vehicle must outlive the sensor.

@@ -1,8 +1,7 @@
 #include "sim/pose_sensors.hpp"
 
-#include <cmath>
-
 #include "geometry/frames.hpp"
+#include "sim/gps_drift.hpp"
 
 namespace alight::sim {
 namespace {
@@ -13,18 +12,6 @@ double time_s(std::int64_t k, double rate_hz) {
 
 std::uint64_t counter(std::int64_t k) { return static_cast<std::uint64_t>(k); }
 
-/// Ornstein-Uhlenbeck process sampled exactly, from 0.
-std::vector<Eigen::Vector3d> drift(const GpsConfig& config, double duration_s, std::uint64_t seed) {
-  const CounterRandom random(seed, RandomStream::kGpsDrift);
-  const double keep = std::exp(-1.0 / (config.rate_hz * config.drift_time_s));
-  const double kick_m = config.drift_m * std::sqrt(1.0 - keep * keep);
-  std::vector<Eigen::Vector3d> values(static_cast<std::size_t>(std::ceil(duration_s * config.rate_hz)) + 2,
-                                      Eigen::Vector3d::Zero());
-  for (std::size_t k = 1; k < values.size(); ++k)
-    values[k] = keep * values[k - 1] + kick_m * random.normal3(k);
-  return values;
-}
-
 }  // namespace
 
 PoseSensors::PoseSensors(const Motion& vehicle, const SensorsConfig& config, std::uint64_t seed,
@@ -34,7 +21,7 @@ PoseSensors::PoseSensors(const Motion& vehicle, const SensorsConfig& config, std
       seed_(seed),
       p_home_world_(vehicle.T_world_imu(0).translation()),
       home_(config.gps.latitude_deg, config.gps.longitude_deg, config.gps.altitude_m),
-      drift_m_(drift(config.gps, vehicle.duration_s(), seed)) {
+      drift_m_(gps_drift(config.gps, vehicle.duration_s(), seed)) {
   p_home_world_.z() = ground_m;
   const CounterRandom bias(seed, RandomStream::kImuBias);
   accelerometer_bias_mps2_ = config.imu.accelerometer_bias_mps2 * bias.normal3(0);

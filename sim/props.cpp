@@ -54,6 +54,17 @@ TriangleMesh car(const PropSurfaces& s) {
   return mesh;
 }
 
+TriangleMesh person(std::uint16_t surface) {
+  constexpr int kSides = 8;
+  TriangleMesh mesh;
+  for (const float y : {-0.1F, 0.1F})
+    add_column(mesh, {0, y, 0}, {0, y, 0.85F}, 0.07F, 0.1F, kSides, surface);
+  add_column(mesh, {0, 0, 0.8F}, {0, 0, 1.45F}, 0.2F, 0.22F, kSides, surface);
+  mesh.append(icosphere(1, surface), place({0, 0, 1.42F}, 0, 0.22F));  // shoulders close the body
+  mesh.append(icosphere(1, surface), place({0, 0, 1.63F}, 0, 0.12F));
+  return mesh;
+}
+
 TriangleMesh bale(const PropSurfaces& s) {
   constexpr float kRadius_m = 0.65F;
   constexpr int kSides = 16;

@@ -21,6 +21,8 @@ struct PropSurfaces {
 TriangleMesh boulder(std::uint16_t surface, Random& random);
 /// A passenger car, 4.4 m along x, wheels on z = 0.
 TriangleMesh car(const PropSurfaces& surfaces);
+/// A person who stands upright, 1.75 m.
+TriangleMesh person(std::uint16_t surface);
 /// A round bale lying on z = 0, 1.3 m across.
 TriangleMesh bale(const PropSurfaces& surfaces);
 /// A street lamp, 6.5 m, its arm along x.

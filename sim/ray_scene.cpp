@@ -75,15 +75,36 @@ RTCIntersectContext make_context(bool coherent) {
   return context;
 }
 
+/// Rays in the frame of what moves, each at its own time. @returns the lanes that come near it
+Mask to_mover(const RayBatch& rays, std::size_t first, const Mover& mover, float reach_m, RTCRay8& packet) {
+  load_packet(rays, first, packet);
+  Mask valid{};
+  const Eigen::Matrix3f R_mesh_world = mover.R_world_mesh().transpose();
+  for (std::size_t k = 0; k < kPacket && first + k < rays.count; ++k) {
+    const Vector3f origin =
+        R_mesh_world * (rays.origin(first + k) - mover.p_world(static_cast<double>(rays.time_s[first + k])));
+    const Vector3f direction = R_mesh_world * rays.direction(first + k);
+    valid[k] = origin.cross(direction).squaredNorm() <= reach_m * reach_m * direction.squaredNorm() ? -1 : 0;
+    packet.org_x[k] = origin.x();
+    packet.org_y[k] = origin.y();
+    packet.org_z[k] = origin.z();
+    packet.dir_x[k] = direction.x();
+    packet.dir_y[k] = direction.y();
+    packet.dir_z[k] = direction.z();
+  }
+  return valid;
+}
+
 }  // namespace
 
-void RayBatch::add(const Vector3f& origin, const Vector3f& direction) {
+void RayBatch::add(const Vector3f& origin, const Vector3f& direction, float t_s) {
   origin_x[count] = origin.x();
   origin_y[count] = origin.y();
   origin_z[count] = origin.z();
   direction_x[count] = direction.x();
   direction_y[count] = direction.y();
   direction_z[count] = direction.z();
+  time_s[count] = t_s;
   ++count;
 }
 
@@ -92,7 +113,8 @@ struct RayScene::Embree {
   // same. AVX2 at most: machines with and without AVX-512 then give the same bits.
   RTCDevice device = rtcNewDevice("threads=1,max_isa=avx2");
   RTCScene scene = nullptr;
-  std::vector<RTCScene> mesh_scenes;  // null where a mesh is not instanced
+  std::vector<RTCScene> mesh_scenes;   // null where a mesh is not instanced
+  std::vector<float> mover_reaches_m;  // of a mover's mesh from its origin
 
   explicit Embree(const World& world) : mesh_scenes(world.meshes().size(), nullptr) {
     if (device == nullptr) throw std::runtime_error("Embree cannot start on this machine");
@@ -105,6 +127,13 @@ struct RayScene::Embree {
       rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(scene);
+    for (const Mover& mover : world.movers()) {
+      const TriangleMesh& mesh = world.meshes()[mover.mesh()];
+      scene_of(mesh, mover.mesh());
+      float reach_m = 0;
+      for (const Vector3f& vertex : mesh.vertices) reach_m = std::max(reach_m, vertex.norm());
+      mover_reaches_m.push_back(reach_m);
+    }
   }
   ~Embree() {
     for (RTCScene mesh_scene : mesh_scenes) {
@@ -123,20 +152,23 @@ struct RayScene::Embree {
     return result;
   }
 
+  RTCScene scene_of(const TriangleMesh& mesh, std::size_t index) {
+    RTCScene& result = mesh_scenes[index];
+    if (result != nullptr) return result;
+    result = new_scene();
+    RTCGeometry geometry = triangle_geometry(device, mesh);
+    rtcAttachGeometry(result, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(result);
+    return result;
+  }
+
   // A mesh that stands unmoved goes straight into the scene; all others are instanced.
   RTCGeometry placed_geometry(const World& world, const Placement& placement) {
     const TriangleMesh& mesh = world.meshes()[placement.mesh];
     if (placement.T_world_mesh.matrix().isIdentity(0)) return triangle_geometry(device, mesh);
-    RTCScene& mesh_scene = mesh_scenes[placement.mesh];
-    if (mesh_scene == nullptr) {
-      mesh_scene = new_scene();
-      RTCGeometry geometry = triangle_geometry(device, mesh);
-      rtcAttachGeometry(mesh_scene, geometry);
-      rtcReleaseGeometry(geometry);
-      rtcCommitScene(mesh_scene);
-    }
     RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(instance, mesh_scene);
+    rtcSetGeometryInstancedScene(instance, scene_of(mesh, placement.mesh));
     const Eigen::Matrix<float, 3, 4, Eigen::ColMajor> T = placement.T_world_mesh.matrix().topRows<3>();
     rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, T.data());
     rtcCommitGeometry(instance);
@@ -148,6 +180,7 @@ RayScene::RayScene(const World& world) : world_(world), embree_(std::make_unique
   for (const Placement& placement : world.placements()) {
     normal_matrices_.emplace_back(placement.T_world_mesh.linear().inverse().transpose());
   }
+  for (const Mover& mover : world.movers()) normal_matrices_.push_back(mover.R_world_mesh());
 }
 
 RayScene::~RayScene() = default;
@@ -171,6 +204,43 @@ void RayScene::intersect(const RayBatch& rays, bool coherent, RayHits& hits) con
       hit = {packet.ray.tfar[k], packet.hit.u[k], packet.hit.v[k], packet.hit.primID[k],
              instanced ? packet.hit.instID[0][k] : packet.hit.geomID[k]};
     }
+    if (!world_.movers().empty()) meet_movers(rays, first, hits);
+  }
+}
+
+void RayScene::meet_movers(const RayBatch& rays, std::size_t first, RayHits& hits) const {
+  for (std::size_t i = 0; i < world_.movers().size(); ++i) {
+    const Mover& mover = world_.movers()[i];
+    RTCRayHit8 packet;
+    alignas(32) const Mask valid = to_mover(rays, first, mover, embree_->mover_reaches_m[i], packet.ray);
+    if (valid == Mask{}) continue;
+    for (std::size_t k = 0; k < kPacket; ++k) {
+      const float before = first + k < rays.count ? hits[first + k].distance : 0;
+      if (before > 0) packet.ray.tfar[k] = before;
+      packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context = make_context(false);
+    rtcIntersect8(valid.data(), embree_->mesh_scenes[mover.mesh()], &context, &packet);
+    for (std::size_t k = 0; k < kPacket && first + k < rays.count; ++k) {
+      if (valid[k] == 0 || packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+      hits[first + k] = {packet.ray.tfar[k], packet.hit.u[k], packet.hit.v[k], packet.hit.primID[k],
+                         static_cast<std::uint32_t>(world_.placements().size() + i)};
+    }
+  }
+}
+
+void RayScene::shade_by_movers(const RayBatch& rays, std::size_t first,
+                               std::array<bool, RayBatch::kCapacity>& blocked) const {
+  for (std::size_t i = 0; i < world_.movers().size(); ++i) {
+    const Mover& mover = world_.movers()[i];
+    RTCRay8 packet;
+    alignas(32) const Mask valid = to_mover(rays, first, mover, embree_->mover_reaches_m[i], packet);
+    if (valid == Mask{}) continue;
+    RTCIntersectContext context = make_context(false);
+    rtcOccluded8(valid.data(), embree_->mesh_scenes[mover.mesh()], &context, &packet);
+    for (std::size_t k = 0; k < kPacket && first + k < rays.count; ++k)
+      blocked[first + k] = blocked[first + k] || (valid[k] != 0 && packet.tfar[k] < 0);
   }
 }
 
@@ -183,6 +253,7 @@ void RayScene::occluded(const RayBatch& rays, std::array<bool, RayBatch::kCapaci
     rtcOccluded8(valid.data(), embree_->scene, &context, &packet);
     for (std::size_t k = 0; k < kPacket && first + k < rays.count; ++k)
       blocked[first + k] = packet.tfar[k] < 0;
+    if (!world_.movers().empty()) shade_by_movers(rays, first, blocked);
   }
 }
 
@@ -204,8 +275,10 @@ const Surface& RayScene::cover_surface(const Vector3f& p_world, std::uint32_t& i
 
 SurfacePoint RayScene::surface_point(const RayHit& hit, const Vector3f& origin,
                                      const Vector3f& direction) const {
-  const Placement& placement = world_.placements()[hit.placement];
-  const TriangleMesh& mesh = world_.meshes()[placement.mesh];
+  const std::size_t still = world_.placements().size();
+  const Mover* const mover = hit.placement < still ? nullptr : &world_.movers()[hit.placement - still];
+  const TriangleMesh& mesh =
+      world_.meshes()[mover != nullptr ? mover->mesh() : world_.placements()[hit.placement].mesh];
   const auto& t = mesh.triangles[hit.triangle];
   const Vector3f& a = mesh.vertices[t[0]];
   const Vector3f facet = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
@@ -219,7 +292,7 @@ SurfacePoint RayScene::surface_point(const RayHit& hit, const Vector3f& origin,
     point.facet_normal = -point.facet_normal;
     point.shading_normal = -point.shading_normal;
   }
-  point.tint_rgb = placement.tint_rgb;
+  point.tint_rgb = mover != nullptr ? mover->tint_rgb() : world_.placements()[hit.placement].tint_rgb;
   point.placement = hit.placement;
   point.surface_index = mesh.triangle_surfaces[hit.triangle];
   const bool is_ground = point.surface_index == TriangleMesh::kGroundCover;

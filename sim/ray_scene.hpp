@@ -23,8 +23,9 @@ struct RayBatch {
   alignas(64) Lanes direction_x{};
   alignas(64) Lanes direction_y{};
   alignas(64) Lanes direction_z{};
+  alignas(64) Lanes time_s{};  ///< from the start of the flight: where what moves is
 
-  void add(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction);
+  void add(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float t_s);
   Eigen::Vector3f origin(std::size_t i) const { return {origin_x[i], origin_y[i], origin_z[i]}; }
   Eigen::Vector3f direction(std::size_t i) const { return {direction_x[i], direction_y[i], direction_z[i]}; }
 };
@@ -35,7 +36,7 @@ struct RayHit {
   float u = 0;         ///< barycentric
   float v = 0;
   std::uint32_t triangle = 0;
-  std::uint32_t placement = 0;
+  std::uint32_t placement = 0;  ///< of what stands still; what moves follows after the last of those
 };
 using RayHits = std::array<RayHit, RayBatch::kCapacity>;
 
@@ -50,7 +51,8 @@ struct SurfacePoint {
   std::uint32_t placement = 0;
 };
 
-/// A world in Embree's bounding volume hierarchy. Const use from many threads is safe.
+/// A world in Embree's bounding volume hierarchy; what moves has hierarchies of its own, into whose frames the rays are
+/// taken, each at its own time. Const use from many threads is safe.
 class RayScene {
  public:
   /// `world` must outlive this. @throws std::runtime_error if Embree cannot start or runs out of memory
@@ -71,11 +73,14 @@ class RayScene {
  private:
   struct Embree;
 
+  void meet_movers(const RayBatch& rays, std::size_t first, RayHits& hits) const;
+  void shade_by_movers(const RayBatch& rays, std::size_t first,
+                       std::array<bool, RayBatch::kCapacity>& blocked) const;
   const Surface& cover_surface(const Eigen::Vector3f& p_world, std::uint32_t& index) const;
 
   const World& world_;
   std::unique_ptr<Embree> embree_;
-  std::vector<Eigen::Matrix3f> normal_matrices_;  // a placement
+  std::vector<Eigen::Matrix3f> normal_matrices_;  // a placement, then a mover
 };
 
 }  // namespace alight::sim

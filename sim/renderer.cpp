@@ -37,11 +37,13 @@ Eigen::Vector2d sub_pixel(int extra, int extras) {
 /// One image in the making.
 class Frame {
  public:
-  Frame(const RayScene& scene, const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera)
+  Frame(const RayScene& scene, const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera,
+        double t_s)
       : scene_(scene),
         intrinsics_(intrinsics),
         R_world_camera_(T_world_camera.linear()),
         origin_(T_world_camera.translation().cast<float>()),
+        t_s_(static_cast<float>(t_s)),
         pixel_rad_(static_cast<float>(1.0 / intrinsics.fx_px)),
         light_(intrinsics.size(), CV_32FC3),
         depth_m_(intrinsics.size(), CV_32FC1),
@@ -64,6 +66,7 @@ class Frame {
   const PinholeIntrinsics& intrinsics_;
   Eigen::Matrix3d R_world_camera_;
   Vector3f origin_;
+  float t_s_;
   float pixel_rad_;
   cv::Mat light_;    // CV_32FC3 linear RGB
   cv::Mat depth_m_;  // CV_32FC1
@@ -85,7 +88,7 @@ void Frame::trace_tile(int first_row, int first_column) {
     const cv::Point at(first_column + (block % 2) * 4 + i % 4, first_row + (block / 2) * 2 + (i % 8) / 4);
     if (at.x >= intrinsics_.width_px || at.y >= intrinsics_.height_px) continue;
     pixel[rays.count] = at;
-    rays.add(origin_, direction(at.x, at.y));
+    rays.add(origin_, direction(at.x, at.y), t_s_);
   }
   ShadedRays seen;
   shade(scene_, rays, pixel_rad_, seen);
@@ -129,7 +132,7 @@ void Frame::smooth_row(int row, int samples) {
     column[rays.count] = u;
     for (int k = 0; k < extras; ++k) {
       const Eigen::Vector2d offset = sub_pixel(k, extras);
-      rays.add(origin_, direction(u + offset.x(), row + offset.y()));
+      rays.add(origin_, direction(u + offset.x(), row + offset.y()), t_s_);
     }
   }
   flush();
@@ -161,8 +164,9 @@ class Renderer::Impl {
  public:
   Impl(const World& world, const RendererConfig& renderer_config) : scene(world), config(renderer_config) {}
 
-  void cast(const Eigen::Vector3d* origins, const Eigen::Vector3d* directions, std::size_t count,
-            Hit* out) const;
+  /// @param times_s null: the start of the flight
+  void cast(const Eigen::Vector3d* origins, const Eigen::Vector3d* directions, const double* times_s,
+            std::size_t count, Hit* out) const;
 
   RayScene scene;
   RendererConfig config;
@@ -170,10 +174,11 @@ class Renderer::Impl {
 
 // At most a batch.
 void Renderer::Impl::cast(const Eigen::Vector3d* origins, const Eigen::Vector3d* directions,
-                          std::size_t count, Hit* out) const {
+                          const double* times_s, std::size_t count, Hit* out) const {
   RayBatch rays;
   for (std::size_t i = 0; i < count; ++i) {
-    rays.add(origins[i].cast<float>(), directions[i].normalized().cast<float>());
+    rays.add(origins[i].cast<float>(), directions[i].normalized().cast<float>(),
+             times_s != nullptr ? static_cast<float>(times_s[i]) : 0.F);
   }
   RayHits hits;
   scene.intersect(rays, false, hits);
@@ -196,8 +201,8 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 const World& Renderer::world() const { return impl_->scene.world(); }
 
 View Renderer::render_camera(const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera,
-                             bool with_depth) const {
-  Frame frame(impl_->scene, intrinsics, T_world_camera);
+                             bool with_depth, double t_s) const {
+  Frame frame(impl_->scene, intrinsics, T_world_camera, t_s);
   View view;
   view.image.create(intrinsics.size(), CV_8UC3);
   const RendererConfig& config = impl_->config;
@@ -210,21 +215,26 @@ View Renderer::render_camera(const PinholeIntrinsics& intrinsics, const Eigen::I
   return view;
 }
 
-Hit Renderer::cast(const Eigen::Vector3d& origin_world, const Eigen::Vector3d& direction_world) const {
+Hit Renderer::cast(const Eigen::Vector3d& origin_world, const Eigen::Vector3d& direction_world,
+                   double t_s) const {
   Hit hit;
-  impl_->cast(&origin_world, &direction_world, 1, &hit);
+  impl_->cast(&origin_world, &direction_world, &t_s, 1, &hit);
   return hit;
 }
 
 void Renderer::cast_many(const std::vector<Eigen::Vector3d>& origins_world,
-                         const std::vector<Eigen::Vector3d>& directions_world, std::vector<Hit>& out) const {
-  if (origins_world.size() != directions_world.size()) {
-    throw std::invalid_argument("Renderer::cast_many: as many origins as directions are needed");
+                         const std::vector<Eigen::Vector3d>& directions_world, std::vector<Hit>& out,
+                         const std::vector<double>& times_s) const {
+  if (origins_world.size() != directions_world.size() ||
+      (!times_s.empty() && times_s.size() != origins_world.size())) {
+    throw std::invalid_argument(
+        "Renderer::cast_many: as many origins as directions, and times if any, are needed");
   }
   out.resize(origins_world.size());
   for (std::size_t first = 0; first < out.size(); first += RayBatch::kCapacity) {
     const std::size_t count = std::min(RayBatch::kCapacity, out.size() - first);
-    impl_->cast(&origins_world[first], &directions_world[first], count, &out[first]);
+    impl_->cast(&origins_world[first], &directions_world[first], times_s.empty() ? nullptr : &times_s[first],
+                count, &out[first]);
   }
 }
 

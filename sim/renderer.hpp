@@ -49,17 +49,19 @@ class Renderer {
 
   const World& world() const;
 
-  /// An ideal pinhole image.
+  /// An ideal pinhole image. @param t_s from the start of the flight, here and below: where what moves is
   View render_camera(const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_camera,
-                     bool with_depth) const;
+                     bool with_depth, double t_s = 0) const;
 
   /// One ray; `direction_world` need not be of unit length, the range is in metres all the same.
-  Hit cast(const Eigen::Vector3d& origin_world, const Eigen::Vector3d& direction_world) const;
+  Hit cast(const Eigen::Vector3d& origin_world, const Eigen::Vector3d& direction_world, double t_s = 0) const;
 
   /// Many rays, each with its own origin, in packets; out[i] belongs to origins[i], directions[i]. Runs on
-  /// the calling thread. @throws std::invalid_argument if the lengths differ
+  /// the calling thread. @param times_s of each ray; empty: all at the start of the flight
+  /// @throws std::invalid_argument if the lengths differ
   void cast_many(const std::vector<Eigen::Vector3d>& origins_world,
-                 const std::vector<Eigen::Vector3d>& directions_world, std::vector<Hit>& out) const;
+                 const std::vector<Eigen::Vector3d>& directions_world, std::vector<Hit>& out,
+                 const std::vector<double>& times_s = {}) const;
 
  private:
   class Impl;

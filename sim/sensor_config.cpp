@@ -60,8 +60,11 @@ void bind(Binder& b, ImuConfig& c) {
 
 void bind(Binder& b, GpsConfig& c) {
   b.field("rate_hz", c.rate_hz, "fixes a second", between(0.1, 10000));
+  b.choice("drift_kind", c.drift_kind, {{"rough", DriftKind::kRough}, {"smooth", DriftKind::kSmooth}},
+           "rough: Ornstein-Uhlenbeck, steps within a second; smooth: as an autopilot's filter gives it");
   b.field("drift_m", c.drift_m, "1 sigma an axis of the slow drift, which starts at 0", between(0, 1000));
-  b.field("drift_time_s", c.drift_time_s, "correlation time of the drift", positive());
+  b.field("drift_time_s", c.drift_time_s, "after which the correlation of the drift has fallen to 1/e",
+          positive());
   b.field("noise_m", c.noise_m, "white noise, 1 sigma an axis", between(0, 1000));
   b.field("latitude_deg", c.latitude_deg, "of the take-off place", between(-89, 89));
   b.field("longitude_deg", c.longitude_deg, "of the take-off place", between(-180, 180));

@@ -63,11 +63,18 @@ struct ImuConfig {
 };
 void bind(Binder& b, ImuConfig& c);
 
+/// How a position drifts (gps_drift.hpp).
+enum class DriftKind {
+  kRough,   ///< Ornstein-Uhlenbeck: 5 cm in a second; harsher than a flight controller's position
+  kSmooth,  ///< with a velocity, as a filter of IMU and satellites gives it
+};
+
 /// Satellite position, smoothed by the flight controller: a slow drift and a little white noise.
 struct GpsConfig {
   double rate_hz = 50;
+  DriftKind drift_kind = DriftKind::kRough;
   double drift_m = 0.3;      ///< 1 sigma an axis once it has settled; 0 at the first fix
-  double drift_time_s = 60;  ///< correlation time (Ornstein-Uhlenbeck)
+  double drift_time_s = 60;  ///< after which its correlation has fallen to 1/e
   double noise_m = 0.005;
   double latitude_deg = 30.27415;  ///< of the take-off place
   double longitude_deg = 120.15515;

@@ -75,7 +75,7 @@ float open_sunlight(const SurfacePoint& point, const Vector3f& sun) {
   return point.facet_normal.dot(sun) > 0 ? std::max(cosine, 0.F) : 0.F;
 }
 
-void cast_shadows(const RayScene& scene, Hits& hits) {
+void cast_shadows(const RayScene& scene, const RayBatch& seen, Hits& hits) {
   const Vector3f sun = scene.world().sun_direction().cast<float>();
   RayBatch rays;
   std::array<std::size_t, kCapacity> owner{};
@@ -85,7 +85,7 @@ void cast_shadows(const RayScene& scene, Hits& hits) {
     if (hits.sun[i] <= 0) continue;
     const float off_m = point.facet_normal.dot(sun) > 0 ? kSurfaceOffset_m : -kSurfaceOffset_m;
     owner[rays.count] = i;
-    rays.add(point.p_world + point.facet_normal * off_m, sun);
+    rays.add(point.p_world + point.facet_normal * off_m, sun, seen.time_s[hits.ray[i]]);
   }
   std::array<bool, kCapacity> blocked{};
   scene.occluded(rays, blocked);
@@ -118,7 +118,7 @@ void shade(const RayScene& scene, const RayBatch& rays, float pixel_rad, ShadedR
   if (hits.count == 0) return;
   const float daylight = scene.world().daylight();
   paint(rays, out, pixel_rad, hits);
-  cast_shadows(scene, hits);
+  cast_shadows(scene, rays, hits);
   for (std::size_t i = 0; i < hits.count; ++i) {
     const float up = 0.5F + 0.5F * hits.point[i].shading_normal.z();
     const Vector3f light = daylight * (kSunLight * hits.sun[i] + kSkyLight * up + kGroundLight * (1 - up));

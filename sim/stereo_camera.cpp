@@ -23,8 +23,8 @@ StereoExposure StereoCamera::expose_frame(std::int64_t frame, bool with_depth) c
   StereoExposure exposure;
   exposure.T_world_camera = vehicle_.T_world_imu(t_s) * rig_.T_camera_imu.inverse();
   const Eigen::Isometry3d T_world_right = exposure.T_world_camera * rig_.T_right_camera().inverse();
-  View left = renderer_.render_camera(rig_.intrinsics, exposure.T_world_camera, with_depth);
-  View right = renderer_.render_camera(rig_.intrinsics, T_world_right, false);
+  View left = renderer_.render_camera(rig_.intrinsics, exposure.T_world_camera, with_depth, t_s);
+  View right = renderer_.render_camera(rig_.intrinsics, T_world_right, false, t_s);
   const double gain = brightness(config_, t_s);
   expose(left.image, config_, gain, left_random_.child(static_cast<std::uint64_t>(frame)));
   expose(right.image, config_, gain, right_random_.child(static_cast<std::uint64_t>(frame)));

@@ -82,12 +82,12 @@ void bind(Binder& b, SurfaceTruthConfig& c) {
   b.check("radius_m", c.radius_m >= c.cell_m, "must be at least cell_m, or no plane can be fitted");
 }
 
-SurfaceTruth::SurfaceTruth(const Renderer& renderer, const SurfaceTruthConfig& config)
+SurfaceTruth::SurfaceTruth(const Renderer& renderer, const SurfaceTruthConfig& config, double t_s)
     : config_(config), min_m_(-0.5 * renderer.world().size_m()) {
   if (config.cell_m <= 0 || config.radius_m < config.cell_m) {
     throw std::invalid_argument("SurfaceTruth: radius_m must be at least cell_m, cell_m positive");
   }
-  measure_elevation(renderer);
+  measure_elevation(renderer, t_s);
   fit_planes();
   // Safe cells touching the grid's border: what lies beyond is not known to be safe.
   cv::Mat framed;
@@ -99,12 +99,13 @@ SurfaceTruth::SurfaceTruth(const Renderer& renderer, const SurfaceTruthConfig& c
   clearance_m_ = cv::max((inner - 0.5) * config_.cell_m, 0.0);
 }
 
-void SurfaceTruth::measure_elevation(const Renderer& renderer) {
+void SurfaceTruth::measure_elevation(const Renderer& renderer, double t_s) {
   const int cells = static_cast<int>(std::floor(renderer.world().size_m() / config_.cell_m + 1e-9));
   elevation_m_.create(cells, cells, CV_32FC1);
   landable_.create(cells, cells, CV_8UC1);
   const auto count = static_cast<std::size_t>(cells);
   const std::vector<Eigen::Vector3d> down(count, -Eigen::Vector3d::UnitZ());
+  const std::vector<double> times_s(count, t_s);
   parallel_rows(0, cells, [&](int row) {
     std::vector<Eigen::Vector3d> origins(count);
     std::vector<Hit> hits;
@@ -112,7 +113,7 @@ void SurfaceTruth::measure_elevation(const Renderer& renderer) {
       origins[static_cast<std::size_t>(column)] = {min_m_ + (column + 0.5) * config_.cell_m,
                                                    min_m_ + (row + 0.5) * config_.cell_m, kSkyHeight_m};
     }
-    renderer.cast_many(origins, down, hits);
+    renderer.cast_many(origins, down, hits, times_s);
     for (int column = 0; column < cells; ++column) {
       const Hit& hit = hits[static_cast<std::size_t>(column)];
       elevation_m_.at<float>(row, column) =

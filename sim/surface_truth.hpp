@@ -44,7 +44,8 @@ struct GroundCell {
 /// = -size/2.
 class SurfaceTruth {
  public:
-  explicit SurfaceTruth(const Renderer& renderer, const SurfaceTruthConfig& config = {});
+  /// @param t_s from the start of the flight: where what moves is
+  explicit SurfaceTruth(const Renderer& renderer, const SurfaceTruthConfig& config = {}, double t_s = 0);
 
   const cv::Mat& elevation_m() const { return elevation_m_; }  ///< CV_32FC1, NaN where nothing was hit
   const cv::Mat& slope_rad() const { return slope_rad_; }      ///< CV_32FC1 of the local plane
@@ -73,7 +74,7 @@ class SurfaceTruth {
                     const Eigen::Isometry3d& T_world_camera) const;
 
  private:
-  void measure_elevation(const Renderer& renderer);
+  void measure_elevation(const Renderer& renderer, double t_s);
   void fit_planes();
   bool cell_at(double x_m, double y_m, int& row, int& column) const;
 

@@ -30,6 +30,21 @@ Eigen::Vector3d sun_of(const WorldConfig& config) {
 
 }  // namespace
 
+void bind(Binder& b, VisitorConfig& c) {
+  b.choice("kind", c.kind,
+           {{"none", VisitorKind::kNone}, {"car", VisitorKind::kCar}, {"person", VisitorKind::kPerson}},
+           "who comes");
+  b.field("from_x_m", c.from_x_m, "where it stands first, east of the world's middle");
+  b.field("from_y_m", c.from_y_m, "north of it");
+  b.field("to_x_m", c.to_x_m, "where it goes, straight, and stays");
+  b.field("to_y_m", c.to_y_m, "likewise");
+  b.field("begin_s", c.begin_s, "when it sets out, from the start of the flight");
+  b.field("speed_mps", c.speed_mps, "how fast it goes", between(0.1, 50));
+  const bool stands = c.from_x_m == c.to_x_m && c.from_y_m == c.to_y_m;
+  b.check("to_x_m", c.kind == VisitorKind::kNone || !stands,
+          "must be another place than where it stands first");
+}
+
 void bind(Binder& b, WorldConfig& c) {
   b.choice("look", c.look, kLookNames, "kind of place");
   b.field("seed", c.seed, "of everything random in the world", at_least(0));
@@ -37,10 +52,9 @@ void bind(Binder& b, WorldConfig& c) {
   b.field("sun_elevation_deg", c.sun_elevation_deg, "none: drawn from the seed", between(5, 90));
   b.field("sun_azimuth_deg", c.sun_azimuth_deg, "counter-clockwise from east; none: drawn from the seed",
           between(-360, 360));
-  b.field("hard", c.hard.names,
-          "what makes the place harder: any of stones, kerbs, wires, slopes, clearings, snow, dusk");
-  b.check("hard", c.hard.unknown().empty(),
-          "\"" + c.hard.unknown() + "\" is none of stones, kerbs, wires, slopes, clearings, snow, dusk");
+  b.field("hard", c.hard.names, "what makes the place harder: any of " + hardship_names());
+  b.check("hard", c.hard.unknown().empty(), "\"" + c.hard.unknown() + "\" is none of " + hardship_names());
+  b.section("visitor", c.visitor, "a car or a person that comes to a place");
 }
 
 std::string to_string(Look look) {
@@ -63,6 +77,7 @@ World::World(const WorldConfig& config) : size_m_(config.size_m), sun_direction_
   meshes_ = std::move(builder.meshes);
   placements_ = std::move(builder.placements);
   surfaces_ = std::move(builder.surfaces);
+  movers_ = std::move(builder.movers);
   terrain_ = std::move(builder.terrain);
 }
 
@@ -78,6 +93,11 @@ World World::from_meshes(std::vector<TriangleMesh> meshes, std::vector<Surface> 
     world.placements_.back().mesh = i;
   }
   return world;
+}
+
+std::size_t World::add(TriangleMesh mesh) {
+  meshes_.push_back(std::move(mesh));
+  return meshes_.size() - 1;
 }
 
 double World::ground_height_m(double x_m, double y_m) const {

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "configs/config_reader.hpp"
 #include "sim/hardship.hpp"
+#include "sim/mover.hpp"
 #include "sim/terrain.hpp"
 #include "sim/triangle_mesh.hpp"
 
@@ -15,6 +17,20 @@ namespace alight::sim {
 
 /// Kinds of places.
 enum class Look { kVillage, kForest, kFarmland, kRocky, kUrban };
+
+enum class VisitorKind { kNone, kCar, kPerson };
+
+/// Something that comes to a place while a vehicle may be landing there.
+struct VisitorConfig {
+  VisitorKind kind = VisitorKind::kNone;
+  double from_x_m = 0;
+  double from_y_m = 0;
+  double to_x_m = 0;
+  double to_y_m = 0;
+  double begin_s = 0;  ///< sets out, from the start of the flight
+  double speed_mps = 5;
+};
+void bind(Binder& b, VisitorConfig& c);
 
 /// What to build. The same values give the same world, bit for bit.
 struct WorldConfig {
@@ -24,6 +40,7 @@ struct WorldConfig {
   std::optional<double> sun_elevation_deg;  ///< none: drawn from the seed
   std::optional<double> sun_azimuth_deg;    ///< counter-clockwise from east; none: drawn from the seed
   Hardships hard;                           ///< none by default
+  VisitorConfig visitor;
 };
 void bind(Binder& b, WorldConfig& c);
 /// The look's name in YAML.
@@ -47,6 +64,11 @@ class World {
   const std::vector<TriangleMesh>& meshes() const { return meshes_; }
   const std::vector<Placement>& placements() const { return placements_; }
   const std::vector<Surface>& surfaces() const { return surfaces_; }
+  /// What moves, beside the placements, which stand still.
+  const std::vector<Mover>& movers() const { return movers_; }
+  /// Adds a mesh that stands nowhere yet. @returns its index
+  std::size_t add(TriangleMesh mesh);
+  void add(Mover mover) { movers_.push_back(std::move(mover)); }
   /// Null in a world of given triangles.
   const Terrain* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
 
@@ -65,6 +87,7 @@ class World {
   std::vector<TriangleMesh> meshes_;
   std::vector<Placement> placements_;
   std::vector<Surface> surfaces_;
+  std::vector<Mover> movers_;
   std::optional<Terrain> terrain_;
   double size_m_ = 0;
   Eigen::Vector3d sun_direction_ = Eigen::Vector3d::UnitZ();

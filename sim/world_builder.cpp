@@ -75,6 +75,7 @@ void WorldBuilder::build() {
   plant_small();
   grow_crops();
   add_hardships();
+  add_movers();
   placements.push_back({add_mesh(std::move(fixed_)), Eigen::Affine3f::Identity(), Eigen::Vector3f::Ones()});
 }
 

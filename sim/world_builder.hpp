@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/props.hpp"
 #include "sim/random.hpp"
 #include "sim/site_plan.hpp"
 #include "sim/terrain.hpp"
@@ -25,6 +26,7 @@ class WorldBuilder {
   std::vector<TriangleMesh> meshes;
   std::vector<Placement> placements;
   std::vector<Surface> surfaces;
+  std::vector<Mover> movers;
   std::optional<Terrain> terrain;
 
  private:
@@ -91,6 +93,7 @@ class WorldBuilder {
   void plant_small();
   std::vector<std::size_t> boulder_kinds(Random& random, int count, double max_shade);
   void scatter_boulders();
+  PropSurfaces car_surfaces();
   void park_cars();
   void set_lamps_and_bales();
   void string_power_line();
@@ -102,6 +105,14 @@ class WorldBuilder {
   void scatter_stones();
   Material ground_cover(Material material) const;
   std::optional<Eigen::Vector2d> find_open(Random& random, double radius_m) const;
+
+  // What moves.
+  void add_movers();
+  void add_traffic();
+  void add_people();
+  void add_visitor();
+  Mover on_way(std::size_t mesh, const Eigen::Vector3f& tint, const Eigen::Vector2d& from,
+               const Eigen::Vector2d& to) const;
 
   std::uint16_t add_surface(Material material, const Eigen::Vector3f& tint = Eigen::Vector3f::Ones());
   std::uint16_t add_framed_surface(Material material, const Eigen::Vector2d& origin,

@@ -120,15 +120,19 @@ void WorldBuilder::set_lamps_and_bales() {
   scatter(random, {bale_mesh}, scaled(look_.bales), 0.95, 1.05, 1.2, true, 0.03);
 }
 
-void WorldBuilder::park_cars() {
-  Random random = stream(23);
+PropSurfaces WorldBuilder::car_surfaces() {
   PropSurfaces s;
   s.paint = add_surface(Material::kCarPaint);
   s.glass = add_surface(Material::kGlass);
   s.rubber = add_surface(Material::kAsphalt, {0.4F, 0.4F, 0.4F});
   surfaces[s.rubber].material = Material::kMetal;
   surfaces[s.rubber].tint_rgb = {0.08F, 0.08F, 0.08F};
-  const std::size_t mesh = add_mesh(car(s));
+  return s;
+}
+
+void WorldBuilder::park_cars() {
+  Random random = stream(23);
+  const std::size_t mesh = add_mesh(car(car_surfaces()));
   const std::vector<Eigen::Vector3f> paints = {{1.5F, 1.5F, 1.5F}, {.06F, .06F, .07F}, {.7F, .7F, .72F},
                                                {.8F, .08F, .07F},  {.1F, .2F, .7F},    {.35F, .36F, .38F}};
   for (int i = 0; i < scaled(look_.cars) && !roads_.empty(); ++i) {

@@ -18,7 +18,7 @@ struct ElevationRaster {
   std::int64_t first_column = 0;
   std::int64_t first_row = 0;
   cv::Mat mean_m;    ///< CV_32FC1, 0 where unknown
-  cv::Mat top_m;     ///< CV_32FC1, the highest point, as above
+  cv::Mat top_m;     ///< CV_32FC1, the highest point as far as noise does not explain it, as above
   cv::Mat bottom_m;  ///< CV_32FC1, the lowest point
   cv::Mat east_m;    ///< CV_32FC1, mean position of the points, from the cell's centre
   cv::Mat north_m;   ///< CV_32FC1, likewise
@@ -38,8 +38,11 @@ struct ElevationRaster {
 /// Every known pixel of a depth map as a point of the raster.
 /// @param depth_m CV_32FC1 plane depth of the camera, 0 = unknown
 /// @param reach_m points farther away horizontally are left out, which bounds the raster
+/// @param noise_m 1 sigma of a single depth. Tops and bottoms are then the larger of what a single point and what the mean
+/// over 0.2 m around it say, each less 2.5 of its own sigmas, and never inside the mean.
 /// @returns an empty raster if there is no point. @throws std::invalid_argument
 ElevationRaster rasterize(const cv::Mat& depth_m, const PinholeIntrinsics& intrinsics,
-                          const Eigen::Isometry3d& T_world_camera, double cell_m, double reach_m);
+                          const Eigen::Isometry3d& T_world_camera, double cell_m, double reach_m,
+                          double noise_m = 0);
 
 }  // namespace alight

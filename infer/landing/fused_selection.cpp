@@ -17,7 +17,7 @@ SiteSelection FusedSelector::update(std::int64_t t_ns, const cv::Mat& depth_m, c
   } else {  // the derivatives have no raster, and from high up its cells are larger
     const PlaneFitConfig& planes = selector_.config().plane_fit;
     const ElevationRaster raster =
-        rasterize(depth_m, selector_.intrinsics(), T_world_camera, cell_m, planes.reach_m);
+        rasterize(depth_m, selector_.intrinsics(), T_world_camera, cell_m, planes.reach_m, planes.noise_m);
     grid_.add(t_ns, raster, fit_planes(raster, planes), p_world_camera);
   }
   if (!sparse_m.empty()) grid_.add_returns(sparse_m, selector_.intrinsics(), T_world_camera);

@@ -14,7 +14,9 @@ struct PlaneFitConfig {
       0.2;  ///< side of a cell; higher up it grows with the pixels, so that cells do not stay empty
   double radius_m = 0.6;         ///< of the disc on which a cell's plane is fitted
   double max_residual_m = 0.07;  ///< nothing on the disc may lie farther above or below the plane
-  double reach_m = 60;           ///< ground farther away horizontally is left out
+  /// 1 sigma of a single depth: what noise explains of the highest and lowest points is no residual. 0: depth is perfect.
+  double noise_m = 0.02;
+  double reach_m = 60;  ///< ground farther away horizontally is left out
 };
 void bind(Binder& b, PlaneFitConfig& c);
 

@@ -95,7 +95,8 @@ ElevationRaster SiteSelector::raster_of(const cv::Mat& depth_m,
   const double mean_m = cv::mean(depth_m, depth_m > 0)[0];
   const double cell_m = std::max(config_.plane_fit.cell_m,
                                  kPixelsPerCell * mean_m / std::min(intrinsics_.fx_px, intrinsics_.fy_px));
-  return rasterize(depth_m, intrinsics_, T_world_camera, cell_m, config_.plane_fit.reach_m);
+  return rasterize(depth_m, intrinsics_, T_world_camera, cell_m, config_.plane_fit.reach_m,
+                   config_.plane_fit.noise_m);
 }
 
 SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera,

@@ -14,52 +14,23 @@ namespace {
 
 constexpr float kVertical_rad = 1.57079632679489662F;
 
-struct Smoothed {
-  cv::Mat depth_m;
-  cv::Mat known;
-};
-
-/// A mean over a window that touches an unknown pixel would be lopsided, so it is unknown too.
-Smoothed smooth(const cv::Mat& depth_m, int window_px) {
-  Smoothed out;
-  out.known = depth_m > 0;
+/// A mean over a window that touches an unknown pixel would be lopsided, so it is unknown too. 0 is unknown.
+cv::Mat smooth(const cv::Mat& depth_m, int window_px) {
+  cv::Mat known = depth_m > 0;
   cv::Mat inverse;
   cv::divide(1.0, depth_m, inverse);
-  inverse.setTo(0, ~out.known);
+  inverse.setTo(0, ~known);
   const cv::Size window(window_px, window_px);
   if (window_px > 1) {
     cv::boxFilter(inverse, inverse, CV_32F, window, {-1, -1}, true, cv::BORDER_REPLICATE);
-    cv::erode(out.known, out.known, cv::getStructuringElement(cv::MORPH_RECT, window), {-1, -1}, 1,
+    cv::erode(known, known, cv::getStructuringElement(cv::MORPH_RECT, window), {-1, -1}, 1,
               cv::BORDER_CONSTANT, cv::Scalar(0));
   }
-  cv::divide(1.0, inverse, out.depth_m);
-  out.depth_m.setTo(0, ~out.known);
-  return out;
+  cv::Mat smoothed_m;
+  cv::divide(1.0, inverse, smoothed_m);
+  smoothed_m.setTo(0, ~known);
+  return smoothed_m;
 }
-
-/// The points of the pixels: x and y on the ground, z the depth. Coordinates of the image axes are looked up.
-class Points {
- public:
-  Points(const Smoothed& smoothed, const PinholeIntrinsics& k) : smoothed_(smoothed) {
-    for (int u = 0; u < k.width_px; ++u) x_.push_back(k.ray(u, 0).x());
-    for (int v = 0; v < k.height_px; ++v) y_.push_back(k.ray(0, v).y());
-  }
-
-  bool known(int u, int v) const {
-    return u >= 0 && v >= 0 && u < smoothed_.known.cols && v < smoothed_.known.rows &&
-           smoothed_.known.at<std::uint8_t>(v, u) != 0;
-  }
-  double depth_m(int u, int v) const { return static_cast<double>(smoothed_.depth_m.at<float>(v, u)); }
-  Eigen::Vector3d at(int u, int v) const {
-    const double z = depth_m(u, v);
-    return {x_[static_cast<std::size_t>(u)] * z, y_[static_cast<std::size_t>(v)] * z, z};
-  }
-
- private:
-  const Smoothed& smoothed_;
-  std::vector<double> x_;
-  std::vector<double> y_;
-};
 
 /// An angle of 0 to 180 degrees as sine and cosine of any common length: comparing two needs no arc tangent.
 struct Angle {
@@ -82,11 +53,102 @@ Angle bend(const Eigen::Vector3d& before, const Eigen::Vector3d& centre, const E
 }
 
 /// Inclination of the plane spanned by two differences, one along the row and one along the column.
-float slope_rad(const Eigen::Vector3d& along_row, const Eigen::Vector3d& along_column) {
+Angle inclination(const Eigen::Vector3d& along_row, const Eigen::Vector3d& along_column) {
   const Eigen::Vector3d normal = along_row.cross(along_column);
-  if (normal.z() <= 0) return kVertical_rad;
-  return std::atan2(static_cast<float>(normal.head<2>().norm()), static_cast<float>(normal.z()));
+  if (normal.z() <= 0) return {1, 0};
+  return {normal.head<2>().norm(), normal.z()};
 }
+
+/// Sines and cosines of a row of pixels, so that the arc tangents are taken of many at once.
+class AngleRow {
+ public:
+  explicit AngleRow(int width) : sine_(static_cast<std::size_t>(width), 0.F), cosine_(sine_.size(), 1.F) {}
+  void set(int u, const Angle& angle) {
+    sine_[static_cast<std::size_t>(u)] = static_cast<float>(angle.sine);
+    cosine_[static_cast<std::size_t>(u)] = static_cast<float>(angle.cosine);
+  }
+  void write_rad(float* out) const {
+    for (std::size_t u = 0; u < sine_.size(); ++u) out[u] = arc_rad(sine_[u], cosine_[u]);
+  }
+
+ private:
+  /// atan2 for a sine that is not negative, free of branches, right to 3e-7. Below tan(22.5 deg) the quotient of an odd
+  /// polynomial of least largest relative error, between there and 1 after taking off 45 degrees.
+  static float arc_rad(float sine, float cosine) {
+    constexpr float kEighth_rad = 0.78539816339744831F;
+    constexpr float kTan22 = 0.41421356237309505F;
+    const float across = std::abs(cosine);
+    const float larger = sine > across ? sine : across;
+    const float smaller = sine > across ? across : sine;
+    const bool upper = smaller > kTan22 * larger;
+    const float numerator = upper ? smaller - larger : smaller;
+    const float denominator = upper ? smaller + larger : larger;
+    const float x = numerator / denominator;
+    const float z = x * x;
+    const float polynomial =
+        ((((-0.06026305237F * z + 0.105698288104F) * z - 0.142395326703F) * z + 0.199981830411F) * z -
+         0.333333068931F) *
+            z +
+        0.999999999371F;
+    float angle = polynomial * x + (upper ? kEighth_rad : 0.F);
+    angle = sine > across ? kVertical_rad - angle : angle;
+    return cosine < 0 ? 2 * kVertical_rad - angle : angle;
+  }
+
+  std::vector<float> sine_;
+  std::vector<float> cosine_;
+};
+
+/// Shape of the ground from one row of the smoothed depth.
+class RowMeasure {
+ public:
+  RowMeasure(const cv::Mat& depth_m, const PinholeIntrinsics& k, double baseline_m)
+      : depth_m_(depth_m), baseline_px_m_(baseline_m * k.fx_px) {
+    for (int u = 0; u < k.width_px; ++u) x_.push_back(k.ray(u, 0).x());
+    for (int v = 0; v < k.height_px; ++v) y_.push_back(k.ray(0, v).y());
+  }
+
+  void operator()(int v, Terrain& terrain) const {
+    const int width = depth_m_.cols;
+    AngleRow slope(width);
+    AngleRow roughness(width);
+    const auto* const row = depth_m_.ptr<float>(v);
+    auto* const known = terrain.known.ptr<std::uint8_t>(v);
+    for (int u = 0; u < width; ++u) {
+      if (!(row[u] > 0)) continue;
+      const double pixels = std::min(1e6, std::max(1.0, baseline_px_m_ / static_cast<double>(row[u])));
+      const int step = static_cast<int>(pixels + 0.5);
+      if (u < step || v < step || u + step >= width || v + step >= depth_m_.rows) continue;
+      const float up_m = depth_m_.ptr<float>(v - step)[u];
+      const float down_m = depth_m_.ptr<float>(v + step)[u];
+      if (!(row[u - step] > 0 && row[u + step] > 0 && up_m > 0 && down_m > 0)) continue;
+      const Eigen::Vector3d centre = point(u, v, row[u]);
+      const Eigen::Vector3d left = point(u - step, v, row[u - step]);
+      const Eigen::Vector3d right = point(u + step, v, row[u + step]);
+      const Eigen::Vector3d up = point(u, v - step, up_m);
+      const Eigen::Vector3d down = point(u, v + step, down_m);
+      known[u] = 255;
+      slope.set(u, inclination(right - left, down - up));
+      const Angle along_row = bend(left, centre, right, 0);
+      const Angle along_column = bend(up, centre, down, 1);
+      roughness.set(u, larger(along_column, along_row) ? along_column : along_row);
+    }
+    slope.write_rad(terrain.slope_rad.ptr<float>(v));
+    roughness.write_rad(terrain.roughness_rad.ptr<float>(v));
+  }
+
+ private:
+  /// x and y on the ground, z the depth.
+  Eigen::Vector3d point(int u, int v, float depth_m) const {
+    const auto z = static_cast<double>(depth_m);
+    return {x_[static_cast<std::size_t>(u)] * z, y_[static_cast<std::size_t>(v)] * z, z};
+  }
+
+  const cv::Mat& depth_m_;  // 0: unknown
+  double baseline_px_m_;
+  std::vector<double> x_;
+  std::vector<double> y_;
+};
 
 }  // namespace
 
@@ -105,34 +167,10 @@ Terrain measure_terrain(const cv::Mat& level_depth_m, const PinholeIntrinsics& i
   const cv::Size size = level_depth_m.size();
   Terrain terrain{cv::Mat(size, CV_32FC1, cv::Scalar(0)), cv::Mat(size, CV_32FC1, cv::Scalar(0)),
                   cv::Mat(size, CV_8UC1, cv::Scalar(0))};
-  const Smoothed smoothed = smooth(level_depth_m, config.smoothing_px);
-  const Points points(smoothed, intrinsics);
-  const double baseline_px_m = config.derivative_baseline_m * intrinsics.fx_px;
-  const auto measure_row = [&](int v) {
-    for (int u = 0; u < size.width; ++u) {
-      if (!points.known(u, v)) continue;
-      const int step =
-          static_cast<int>(std::min(1e6, std::max(1.0, std::round(baseline_px_m / points.depth_m(u, v)))));
-      if (!points.known(u - step, v) || !points.known(u + step, v) || !points.known(u, v - step) ||
-          !points.known(u, v + step)) {
-        continue;
-      }
-      const Eigen::Vector3d centre = points.at(u, v);
-      const Eigen::Vector3d left = points.at(u - step, v);
-      const Eigen::Vector3d right = points.at(u + step, v);
-      const Eigen::Vector3d up = points.at(u, v - step);
-      const Eigen::Vector3d down = points.at(u, v + step);
-      terrain.known.at<std::uint8_t>(v, u) = 255;
-      terrain.slope_rad.at<float>(v, u) = slope_rad(right - left, down - up);
-      const Angle along_row = bend(left, centre, right, 0);
-      const Angle along_column = bend(up, centre, down, 1);
-      const Angle& roughest = larger(along_column, along_row) ? along_column : along_row;
-      terrain.roughness_rad.at<float>(v, u) =
-          std::atan2(static_cast<float>(roughest.sine), static_cast<float>(roughest.cosine));
-    }
-  };
+  const cv::Mat smoothed_m = smooth(level_depth_m, config.smoothing_px);
+  const RowMeasure measure_row(smoothed_m, intrinsics, config.derivative_baseline_m);
   cv::parallel_for_({0, size.height}, [&](const cv::Range& rows) {
-    for (int v = rows.start; v < rows.end; ++v) measure_row(v);
+    for (int v = rows.start; v < rows.end; ++v) measure_row(v, terrain);
   });
   return terrain;
 }

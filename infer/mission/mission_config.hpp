@@ -37,7 +37,8 @@ struct MissionConfig {
   // leaving
   double climb_speed_mps = 2.5;
   double climb_timeout_s = 30.0;
-  double hold_timeout_s = 10.0;  ///< failed sensors that do not come back: given up
+  /// Failed sensors that do not come back within this time: given up. A sensor that restarts is back in less.
+  double hold_timeout_s = 30.0;
   // limits
   double time_low_s = 240.0;  ///< in automatic mode: then the least bad site will do
   double time_critical_s = 300.0;

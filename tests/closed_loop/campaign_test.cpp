@@ -59,6 +59,27 @@ TEST_F(CampaignTest, LandingsRunThroughLooksAndFaults) {
   EXPECT_EQ(seen.size(), 6u);
 }
 
+TEST_F(CampaignTest, FailuresPassOrLastAsPlanned) {
+  plan_.looks = {"village"};
+  plan_.faults = {"LiDAR lost"};
+  EXPECT_FALSE(planned(plan_, 0).fault.lasts_s);
+  plan_.fault_lasts_s = {2, 10};
+  plan_.lasting_share = 0.25;
+  check(plan_);
+  int lasting = 0;
+  for (int i = 0; i < 400; ++i) {
+    const PlannedFault fault = planned(plan_, i).fault;
+    lasting += fault.lasts_s ? 0 : 1;
+    if (!fault.lasts_s) continue;
+    EXPECT_GE(*fault.lasts_s, 2);
+    EXPECT_LT(*fault.lasts_s, 10);
+    EXPECT_EQ(fault.lasts_s, planned(plan_, i).fault.lasts_s);
+  }
+  EXPECT_NEAR(lasting, 100, 35);
+  plan_.fault_lasts_s = {10, 2};
+  EXPECT_THROW(check(plan_), ConfigError);
+}
+
 TEST_F(CampaignTest, UnknownNamesAreRefusedWithTheKnownOnes) {
   plan_.looks = {"moon"};
   EXPECT_THROW(check(plan_), ConfigError);
@@ -73,10 +94,16 @@ TEST_F(CampaignTest, UnknownNamesAreRefusedWithTheKnownOnes) {
 }
 
 TEST_F(CampaignTest, GoesOnWhereItWasStopped) {
+  LandingResult full = row(1, Outcome::kSafe);
+  full.fault = "LiDAR lost";
+  full.fault_s = 3.5;
+  full.fault_lasts_s = 2.25;
+  full.p_end = {1.5, -2, 0.25};
+  full.events = {{5, MissionState::kManual, MissionState::kSelect, "automatic mode"}};
   {
     const CampaignFolder folder(path_, plan_, {});
     EXPECT_EQ(folder.missing().size(), 6u);
-    folder.append(row(1, Outcome::kSafe));
+    folder.append(full);
     folder.append(row(4, Outcome::kGaveUp));
   }
   const CampaignFolder again(path_, plan_, {});
@@ -86,6 +113,7 @@ TEST_F(CampaignTest, GoesOnWhereItWasStopped) {
   EXPECT_EQ(rows[0].outcome, Outcome::kSafe);
   EXPECT_EQ(rows[0].footprint->clearance_m, 2.25);
   EXPECT_EQ(rows[1].reason, "a \"quoted\" reason");
+  EXPECT_EQ(to_json(rows[0]), to_json(full));
   plan_.worlds = 8;
   EXPECT_EQ(CampaignFolder(path_, plan_, {}).missing().size(), 6u);
 }

@@ -1,6 +1,8 @@
 #include "closed_loop/landing_flight.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 
 #include <unistd.h>
 
@@ -19,14 +21,12 @@ LandConfig quick() {
   LandConfig config;
   config.rig = (fs::path(ALIGHT_SOURCE_DIR) / "configs" / "rigs" / "paper.yaml").string();
   config.world.look = sim::Look::kFarmland;
-  config.world.seed = 100002;
+  config.world.seed = 200002;
   config.world.size_m = 70;
   config.flight.images = false;
-  config.flight.start_height_m = 12;
+  config.flight.start_height_m = 15;
   config.flight.clear_above_m = 3;
-  config.mission.geofence_radius_m = 6;
-  config.sensors.gps.drift_m = 0;
-  config.landing.selection.method = LandingMethod::kDerivatives;
+  config.mission.geofence_radius_m = 10;
   return config;
 }
 
@@ -41,7 +41,7 @@ class LandingFlightTest : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = fs::temp_directory_path() / ("alight_landing_" + std::to_string(getpid()));
     fs::create_directories(folder_);
-    flight_ = new LandingFlight(quick(), 100002, nullptr);
+    flight_ = new LandingFlight(quick(), 200002, nullptr);
     sim::BagWriter bag(folder_ / "log.bag", sim::BagCompression::kNone);
     flown_ = new FlownLanding(flight_->fly(&bag));
     bag.commit();
@@ -88,22 +88,70 @@ TEST_F(LandingFlightTest, ItsPicturesShowTheEnd) {
   EXPECT_GT(cv::countNonZero(mark), 10);  // the footprint's circle
 }
 
+/// The same landing, but a car comes to the confirmed site while the vehicle is on its last way down.
+TEST_F(LandingFlightTest, ACarOnTheConfirmedSiteSendsItUpAgain) {
+  const LandingResult& alone = flown_->result;
+  ASSERT_EQ(alone.outcome, Outcome::kSafe);
+  double final_s = 0;
+  for (const auto& event : alone.events) {
+    if (event.to == MissionState::kFinalDescent)
+      final_s = static_cast<double>(event.t_ns) * 1e-9 - flown_->clock_start_s;
+  }
+  LandConfig config = quick();
+  constexpr double kWay_m = 20;
+  sim::VisitorConfig& car = config.world.visitor;
+  car.kind = sim::VisitorKind::kCar;
+  car.speed_mps = 8;
+  car.to_x_m = alone.p_end.x();
+  car.to_y_m = alone.p_end.y();
+  car.from_x_m = car.to_x_m + kWay_m;
+  car.from_y_m = car.to_y_m;
+  car.begin_s = final_s + 1.5 - kWay_m / car.speed_mps;  // there a second and a half after the confirmation
+  LandingFlight flight(config, config.world.seed, nullptr);
+  const FlownLanding flown = flight.fly();
+  bool up_again = false;
+  for (const auto& event : flown.result.events)
+    up_again =
+        up_again || (event.from == MissionState::kFinalDescent && event.to == MissionState::kClimbAway);
+  EXPECT_TRUE(up_again) << describe(flown.result, 3);
+  EXPECT_NE(flown.result.outcome, Outcome::kUnsafe) << describe(flown.result, 3);
+  EXPECT_NE(flown.result.outcome, Outcome::kCollided) << describe(flown.result, 3);
+  if (flown.result.outcome != Outcome::kSafe) return;
+  EXPECT_GT((flown.result.p_end - alone.p_end).head<2>().norm(), 2.5) << "half a car's length and the body";
+  // The truth is that of the touchdown: the car stands there.
+  const double top_m = flight.surface_truth().elevation_m(alone.p_end.x(), alone.p_end.y());
+  EXPECT_GT(top_m, flight_->surface_truth().elevation_m(alone.p_end.x(), alone.p_end.y()) + 1);
+}
+
 /// Short flights: gusts, noise, a first site, a failure.
 FlownLanding without_position(std::int64_t seed) {
   LandConfig config = quick();
   config.mission.hold_timeout_s = 1;
-  LandingFlight flight(config, seed, nullptr, {sim::find_fault("position lost"), 2.0});
+  LandingFlight flight(config, seed, nullptr, {sim::find_fault("position lost"), 2.0, {}});
   return flight.fly();
 }
 
 TEST_F(LandingFlightTest, WithoutPositionItGivesUpAndSaysSoTheSameWayEveryTime) {
-  const FlownLanding flown = without_position(100002);
+  const FlownLanding flown = without_position(200002);
   EXPECT_EQ(flown.result.outcome, Outcome::kGaveUp) << describe(flown.result, 3);
   EXPECT_FALSE(flown.result.footprint);
   EXPECT_NE(flown.result.reason.find("sensors stay failed"), std::string::npos) << flown.result.reason;
-  EXPECT_EQ(row(without_position(100002)), row(flown));
-  const FlownLanding other = without_position(100003);
+  EXPECT_EQ(row(without_position(200002)), row(flown));
+  const FlownLanding other = without_position(200003);
   EXPECT_NE(other.result.p_end, flown.result.p_end);
+}
+
+TEST_F(LandingFlightTest, APositionThatComesBackIsWaitedFor) {
+  const LandConfig config = quick();
+  LandingFlight flight(config, config.world.seed, nullptr, {sim::find_fault("position lost"), 2.0, 4.0});
+  const LandingResult result = flight.fly().result;
+  EXPECT_EQ(result.outcome, Outcome::kSafe) << describe(result, 3);
+  EXPECT_EQ(result.fault_kind(), "position lost for a while");
+  const bool failed = std::any_of(result.events.begin(), result.events.end(), [](const auto& event) {
+    return event.reason.find("position lost") != std::string::npos;
+  });
+  EXPECT_TRUE(failed);
+  EXPECT_GT(result.duration_s, flown_->result.duration_s);
 }
 
 }  // namespace

@@ -41,6 +41,43 @@ INSTANTIATE_TEST_SUITE_P(Slopes, TerrainOnPlanes,
                                           testing::Values(0.0, 37.0, 90.0, 205.0), testing::Values(8.0, 30.0),
                                           testing::Values(352, 201)));
 
+/// Slope and roughness by their definitions, pixel by pixel, on ground that is anything but plane.
+TEST(Terrain, AnglesAreThoseOfTheirDefinition) {
+  const PinholeIntrinsics k = camera_of(97, 83);
+  const cv::Mat depth = scenes::with_noise(scenes::plane(k, 12, 0.2, -0.3), 0.3, 5);
+  TerrainConfig config;
+  config.smoothing_px = 1;
+  const Terrain terrain = measure_terrain(depth, k, config);
+  const auto point = [&](int u, int v) {
+    return Eigen::Vector3d(k.ray(u, v) * static_cast<double>(depth.at<float>(v, u)));
+  };
+  const auto bend_rad = [](const Eigen::Vector3d& first, const Eigen::Vector3d& second, int axis) {
+    if (first[axis] <= 0 || second[axis] <= 0) return std::acos(0.0);
+    return std::abs(std::atan2(second.z(), second.head<2>().norm()) -
+                    std::atan2(first.z(), first.head<2>().norm()));
+  };
+  constexpr double kRounding_rad = 1e-5;  // depths and their inverses are single precision
+  int compared = 0;
+  for (int v = 0; v < depth.rows; ++v) {
+    for (int u = 0; u < depth.cols; ++u) {
+      const int step = static_cast<int>(std::round(0.5 * k.fx_px / depth.at<float>(v, u)));
+      const bool known = u >= step && v >= step && u + step < depth.cols && v + step < depth.rows;
+      ASSERT_EQ(terrain.known.at<std::uint8_t>(v, u) != 0, known) << u << " " << v;
+      if (!known) continue;
+      ++compared;
+      const Eigen::Vector3d c = point(u, v);
+      const Eigen::Vector3d normal =
+          (point(u + step, v) - point(u - step, v)).cross(point(u, v + step) - point(u, v - step));
+      EXPECT_NEAR(terrain.slope_rad.at<float>(v, u), std::atan2(normal.head<2>().norm(), normal.z()),
+                  kRounding_rad);
+      const double roughness = std::max(bend_rad(c - point(u - step, v), point(u + step, v) - c, 0),
+                                        bend_rad(c - point(u, v - step), point(u, v + step) - c, 1));
+      EXPECT_NEAR(terrain.roughness_rad.at<float>(v, u), roughness, kRounding_rad);
+    }
+  }
+  EXPECT_GT(compared, 2000);
+}
+
 TEST(Terrain, StepIsSeenAtTheSameGroundDistanceFromEveryHeight) {
   for (const double z_m : {8.0, 15.0, 30.0, 60.0}) {
     const PinholeIntrinsics k = camera_of(353, 353);
