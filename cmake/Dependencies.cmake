@@ -7,13 +7,19 @@ find_package(spdlog REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
-# OpenCV's, yaml-cpp's and Embree's headers are system headers: our warnings are not theirs.
+# OpenCV's, yaml-cpp's and Embree's headers are system headers: our warnings are not theirs. What is installed names their
+# places on the computer that it is for, which has no CMAKE_SYSROOT.
 function(alight_imported name)
   cmake_parse_arguments(ARG "" "" "INCLUDES;LIBRARIES" ${ARGN})
   add_library(alight_${name} INTERFACE)
   set_target_properties(alight_${name} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(alight_${name} SYSTEM INTERFACE ${ARG_INCLUDES})
-  target_link_libraries(alight_${name} INTERFACE ${ARG_LIBRARIES})
+  foreach(kind INCLUDES LIBRARIES)
+    list(TRANSFORM ARG_${kind} REPLACE "^(.+)$" "$<BUILD_INTERFACE:\\1>" OUTPUT_VARIABLE build_${kind})
+    list(TRANSFORM ARG_${kind} REPLACE "^${CMAKE_SYSROOT}/" "/" OUTPUT_VARIABLE installed)
+    list(TRANSFORM installed REPLACE "^(.+)$" "$<INSTALL_INTERFACE:\\1>" OUTPUT_VARIABLE install_${kind})
+  endforeach()
+  target_include_directories(alight_${name} SYSTEM INTERFACE ${build_INCLUDES} ${install_INCLUDES})
+  target_link_libraries(alight_${name} INTERFACE ${build_LIBRARIES} ${install_LIBRARIES})
   set_property(GLOBAL APPEND PROPERTY ALIGHT_IMPORTED_TARGETS alight_${name})
 endfunction()
 
@@ -64,8 +70,10 @@ alight_imported(httplib INCLUDES ${HTTPLIB_INCLUDE_DIR} LIBRARIES ${HTTPLIB_LIBR
 target_compile_definitions(alight_httplib INTERFACE CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT
                                                     CPPHTTPLIB_BROTLI_SUPPORT)
 
-find_package(embree 3 REQUIRED)
-alight_imported(embree INCLUDES ${EMBREE_INCLUDE_DIRS} LIBRARIES ${EMBREE_LIBRARY})
+if(ALIGHT_WITH_GROUND)
+  find_package(embree 3 REQUIRED)
+  alight_imported(embree INCLUDES ${EMBREE_INCLUDE_DIRS} LIBRARIES ${EMBREE_LIBRARY})
+endif()
 
 if(ALIGHT_WITH_TORCH)
   find_package(Torch REQUIRED)
@@ -80,7 +88,9 @@ if(ALIGHT_WITH_TORCH)
   target_link_libraries(alight_torch_pch PRIVATE alight_torch)
   target_compile_options(alight_torch_pch PRIVATE ${ALIGHT_PCH_OPTIONS})
   target_precompile_headers(alight_torch_pch PRIVATE <torch/torch.h> <torch/script.h>)
+endif()
 
+if(ALIGHT_WITH_TORCH AND ALIGHT_WITH_GROUND)
   # The very library that LibTorch links: ONNX's message types may be registered once in a process.
   find_path(ONNX_INCLUDE_DIR onnx/onnx_pb.h REQUIRED)
   find_library(ONNX_PROTO_LIBRARY onnx_proto REQUIRED)

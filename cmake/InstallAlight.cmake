@@ -6,10 +6,16 @@ include(CMakePackageConfigHelpers)
 set(ALIGHT_PACKAGE_TARGETS alight_configs alight_cli alight_geometry alight_alignment alight_dataset alight_landing
                            alight_health alight_engine alight_mission alight_onboard alight_results alight_autopilot
                            alight_replay)
-set(ALIGHT_TOOLS alight-sim alight-dataset alight-calibrate)
+set(ALIGHT_TOOLS alight-dataset)
+if(ALIGHT_WITH_GROUND)
+  list(APPEND ALIGHT_TOOLS alight-sim alight-calibrate)
+endif()
 if(ALIGHT_WITH_TORCH)
   list(APPEND ALIGHT_PACKAGE_TARGETS alight_models alight_infer)
-  list(APPEND ALIGHT_TOOLS alight-train alight-evaluate alight-export alight-infer)
+  list(APPEND ALIGHT_TOOLS alight-infer)
+endif()
+if(ALIGHT_WITH_TORCH AND ALIGHT_WITH_GROUND)
+  list(APPEND ALIGHT_TOOLS alight-train alight-evaluate alight-export)
 endif()
 get_property(imported_targets GLOBAL PROPERTY ALIGHT_IMPORTED_TARGETS)
 

@@ -33,19 +33,24 @@ class ReplayResults::Files {
   Files(const fs::path& path, const ReplayConfig& config, const cv::Rect& crop)
       : folder_(path),
         every_(config.overlay_every),
+        depth_every_(config.depth_every),
         results_(folder_.partial() / "results.jsonl", crop, config.write_timings) {
     if (every_ > 0) fs::create_directories(folder_.partial() / "overlay");
+    if (depth_every_ > 0) fs::create_directories(folder_.partial() / "depth");
     write_file_atomically(folder_.partial() / "config.yaml", print_config(config));
   }
 
   void add(const FrameReport& frame) {
     results_.write(frame);
-    const bool due = every_ > 0 && images_++ % every_ == 0;
-    if (frame.depth.left.empty()) return;
-    if (due) {
-      write_picture(folder_.partial() / "overlay" / (std::to_string(frame.depth.t_ns) + ".png"),
-                    replay_strip(frame));
+    const bool due = every_ > 0 && images_ % every_ == 0;
+    const bool depth_due = depth_every_ > 0 && images_ % depth_every_ == 0;
+    ++images_;
+    const std::string name = std::to_string(frame.depth.t_ns);
+    if (depth_due && !frame.depth.depth_m.empty()) {
+      write_picture(folder_.partial() / "depth" / (name + ".tiff"), frame.depth.depth_m);
     }
+    if (frame.depth.left.empty()) return;
+    if (due) write_picture(folder_.partial() / "overlay" / (name + ".png"), replay_strip(frame));
     draw_method(frame);
   }
   void commit() { folder_.commit(); }
@@ -63,6 +68,7 @@ class ReplayResults::Files {
 
   OutputFolder folder_;
   int every_;
+  int depth_every_;
   ResultWriter results_;
   std::int64_t images_ = 0;
   int method_rank_ = 0;
@@ -72,6 +78,7 @@ void bind(Binder& b, ReplayConfig& c) {
   b.field("rig", c.rig, "sensors and their mounting");
   b.field("checkpoint", c.checkpoint, "the trained network; none: the one that came with the program");
   b.field("overlay_every", c.overlay_every, "a picture every so many images; 0: none", at_least(0));
+  b.field("depth_every", c.depth_every, "a depth map (TIFF) every so many images; 0: none", at_least(0));
   b.field("write_timings", c.write_timings, "stages_ms in results.jsonl, which differs from run to run");
   b.section("log", c.log, "how the log is read");
   b.section("queue", c.queue, "what may wait for the engine, in real time");

@@ -23,6 +23,7 @@ struct ReplayConfig {
   std::optional<std::string> checkpoint;  ///< none: the one that came with the program
   NetworkConfig network;
   int overlay_every = 20;     ///< a picture every so many images; 0: none
+  int depth_every = 0;        ///< a depth map every so many images; 0: none
   bool write_timings = true;  ///< stages_ms in results.jsonl; without, runs are equal byte for byte
   LogConfig log;
   MessageQueueConfig queue;
@@ -32,7 +33,7 @@ struct ReplayConfig {
 };
 void bind(Binder& b, ReplayConfig& c);
 
-/// The results of a replay as files: results.jsonl, overlay/<t_ns>.png and method.png (the first accepted site that a
+/// The results of a replay as files: results.jsonl, overlay/<t_ns>.png, depth/<t_ns>.tiff and method.png (the first accepted site that a
 /// prediction found; else the first accepted one) in a folder that appears when commit() is called; and their summary.
 class ReplayResults : public FrameSink {
  public:

@@ -88,6 +88,23 @@ TEST_F(Replay, WritesOneLineAnImagePicturesAndTheConfiguration) {
   EXPECT_NE(summary.page().find("source image"), std::string::npos);
 }
 
+TEST_F(Replay, WritesEverySoManyDepthMaps) {
+  ReplayConfig config = small_replay();
+  config.depth_every = 10;
+  const ReplaySummary summary =
+      replay(config, rig_, folder_ / "flight.bag", folder_ / "out", right_predictor());
+  EXPECT_EQ(summary.images, 39);
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out" / "depth")) {
+    ++files;
+    const cv::Mat depth_m = cv::imread(entry.path().string(), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(depth_m.type(), CV_32FC1) << entry.path();
+    ASSERT_EQ(depth_m.size(), cv::Size(160, 144)) << entry.path();
+    EXPECT_EQ(cv::countNonZero(depth_m != static_cast<float>(kHeight_m)), 0) << entry.path();
+  }
+  EXPECT_EQ(files, 4);
+}
+
 TEST_F(Replay, TwiceIsTheSameByteForByte) {
   for (const char* name : {"a", "b"}) {
     replay(small_replay(), rig_, folder_ / "flight.bag", folder_ / name, right_predictor());
