@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs what scripts/build_arm64.sh built, in emulation (qemu): the unit tests; then a simulated flight of ten images, replayed
-# through the onboard program of this machine and through that for ARM, and compared.
+# Runs what scripts/build_arm64.sh built, in emulation (qemu): the unit tests; then two simulated flights of ten images, each
+# replayed through the onboard program of this machine and through that for ARM, and compared.
 #   scripts/test_arm64.sh                           builds what is missing of both first
 #   scripts/test_arm64.sh --root /media/big/arm64   where the arm64 packages are (default: build/arm64-root)
 #   scripts/test_arm64.sh --bin DIR                 alight-sim and alight-infer of this machine (default: build/release/bin)
@@ -60,9 +60,10 @@ run_unit_tests() {
   done
 }
 
+# replay LOG OUTPUT PROGRAM...
 replay() {
-  local output=$1 begin=$SECONDS
-  shift
+  local flight=$1 output=$2 begin=$SECONDS
+  shift 2
   "$@" --quiet --log "$flight" --output "$output" --set depth_every=1 --set overlay_every=0 --set network.precision=float32 \
     --set network.threads=1 >"$output.txt" 2>&1 || { tail -n 20 "$output.txt" >&2; fail "the replay into $output failed"; }
   say "replayed into $output in $((SECONDS - begin)) s"
@@ -73,11 +74,13 @@ if $unit_tests; then run_unit_tests; fi
 work=build/arm64/replay
 rm -rf "$work"
 mkdir -p "$work"
-"$here"/alight-sim --quiet --config configs/sim/ten_images.yaml --output "$work"/flight >/dev/null
-flight=$work/flight/ten_images.bag
-replay "$work"/here "$here"/alight-infer
-replay "$work"/arm64 emulate "$arm"/alight-infer
-scripts/compare_results.py "$work"/here "$work"/arm64 --tolerance 1e-4 || failed+=("the replay ($work)")
+"$here"/alight-sim --quiet --config configs/sim/ten_images.yaml --output "$work"/logs >/dev/null
+for flight in field town; do
+  replay "$work"/logs/$flight.bag "$work"/$flight.here "$here"/alight-infer
+  replay "$work"/logs/$flight.bag "$work"/$flight.arm64 emulate "$arm"/alight-infer
+  scripts/compare_results.py "$work"/$flight.here "$work"/$flight.arm64 --tolerance 1e-4 ||
+    failed+=("the replay over the $flight ($work)")
+done
 
 [ ${#failed[@]} -eq 0 ] || fail "failed: ${failed[*]}"
 say "all of it agrees"
