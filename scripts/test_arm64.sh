@@ -50,7 +50,7 @@ failed=()
 run_unit_tests() {
   local test begin log
   mkdir -p build/arm64/logs
-  for test in geometry landing engine onboard; do
+  for test in geometry landing; do
     log=build/arm64/logs/${test}_tests.txt
     begin=$SECONDS
     emulate "$arm/${test}_tests" >"$log" 2>&1 || failed+=("${test}_tests ($log)")
