@@ -110,6 +110,63 @@ struct Cell {
 
 int cell_of(float coordinate_m, float per_m) { return static_cast<int>(std::floor(coordinate_m * per_m)); }
 
+/// The points of every cell, and where the cells lie from the camera's.
+struct Cells {
+  int column0 = 0;
+  int row0 = 0;
+  cv::Size size;
+  std::vector<Cell> cells;  // row by row
+};
+
+Cells sort_into_cells(const Points& points, double cell_m) {
+  const std::vector<float>& tops_m = points.top_m.empty() ? points.height_m : points.top_m;
+  const std::vector<float>& bottoms_m = points.bottom_m.empty() ? points.height_m : points.bottom_m;
+  const auto per_m = static_cast<float>(1 / cell_m);
+  Cells out;
+  out.column0 = cell_of(points.low_east_m, per_m);
+  out.row0 = cell_of(points.low_north_m, per_m);
+  out.size = {cell_of(points.high_east_m, per_m) - out.column0 + 1,
+              cell_of(points.high_north_m, per_m) - out.row0 + 1};
+  out.cells.resize(static_cast<std::size_t>(out.size.area()));
+  for (std::size_t i = 0; i < points.east_m.size(); ++i) {
+    if (std::isnan(points.east_m[i])) continue;
+    const int column = cell_of(points.east_m[i], per_m) - out.column0;
+    const int row = cell_of(points.north_m[i], per_m) - out.row0;
+    Cell& cell = out.cells[static_cast<std::size_t>(row * out.size.width + column)];
+    cell.sum_m += points.height_m[i];
+    cell.east_m += points.east_m[i];
+    cell.north_m += points.north_m[i];
+    cell.count += 1;
+    cell.top_m = std::max(cell.top_m, tops_m[i]);
+    cell.bottom_m = std::min(cell.bottom_m, bottoms_m[i]);
+  }
+  return out;
+}
+
+void write_maps(const Cells& cells, float side_m, ElevationRaster& raster) {
+  raster.mean_m.create(cells.size, CV_32FC1);
+  raster.top_m.create(cells.size, CV_32FC1);
+  raster.bottom_m.create(cells.size, CV_32FC1);
+  raster.east_m.create(cells.size, CV_32FC1);
+  raster.north_m.create(cells.size, CV_32FC1);
+  raster.known.create(cells.size, CV_8UC1);
+  const Cell* cell = cells.cells.data();
+  for (int row = 0; row < cells.size.height; ++row) {
+    for (int column = 0; column < cells.size.width; ++column, ++cell) {
+      const bool known = cell->count > 0;
+      const float mean_m = known ? cell->sum_m / cell->count : 0.F;
+      raster.mean_m.at<float>(row, column) = mean_m;
+      raster.top_m.at<float>(row, column) = known ? std::max(cell->top_m, mean_m) : 0.F;
+      raster.bottom_m.at<float>(row, column) = known ? std::min(cell->bottom_m, mean_m) : 0.F;
+      const float middle_east_m = side_m * (static_cast<float>(cells.column0 + column) + 0.5F);
+      const float middle_north_m = side_m * (static_cast<float>(cells.row0 + row) + 0.5F);
+      raster.east_m.at<float>(row, column) = known ? cell->east_m / cell->count - middle_east_m : 0.F;
+      raster.north_m.at<float>(row, column) = known ? cell->north_m / cell->count - middle_north_m : 0.F;
+      raster.known.at<std::uint8_t>(row, column) = known ? 255 : 0;
+    }
+  }
+}
+
 }  // namespace
 
 bool ElevationRaster::cell_at(double x_m, double y_m, int& column, int& row) const {
@@ -138,51 +195,10 @@ ElevationRaster rasterize(const cv::Mat& depth_m, const PinholeIntrinsics& intri
     const double px_per_m = std::min(intrinsics.fx_px, intrinsics.fy_px) / cv::mean(depth_m, depth_m > 0)[0];
     bound(depth_m.size(), kWindow_m * px_per_m, static_cast<float>(noise_m), points);
   }
-  const std::vector<float>& tops_m = noise_m > 0 ? points.top_m : points.height_m;
-  const std::vector<float>& bottoms_m = noise_m > 0 ? points.bottom_m : points.height_m;
-  const auto per_m = static_cast<float>(1 / cell_m);
-  const int column0 = cell_of(points.low_east_m, per_m);
-  const int row0 = cell_of(points.low_north_m, per_m);
-  const cv::Size size(cell_of(points.high_east_m, per_m) - column0 + 1,
-                      cell_of(points.high_north_m, per_m) - row0 + 1);
-  raster.first_column = static_cast<std::int64_t>(camera_cell.x()) + column0;
-  raster.first_row = static_cast<std::int64_t>(camera_cell.y()) + row0;
-  std::vector<Cell> cells(static_cast<std::size_t>(size.area()));
-  for (std::size_t i = 0; i < points.east_m.size(); ++i) {
-    if (std::isnan(points.east_m[i])) continue;
-    const int column = cell_of(points.east_m[i], per_m) - column0;
-    const int row = cell_of(points.north_m[i], per_m) - row0;
-    Cell& cell = cells[static_cast<std::size_t>(row * size.width + column)];
-    const float height = points.height_m[i];
-    cell.sum_m += height;
-    cell.east_m += points.east_m[i];
-    cell.north_m += points.north_m[i];
-    cell.count += 1;
-    cell.top_m = std::max(cell.top_m, tops_m[i]);
-    cell.bottom_m = std::min(cell.bottom_m, bottoms_m[i]);
-  }
-  raster.mean_m.create(size, CV_32FC1);
-  raster.top_m.create(size, CV_32FC1);
-  raster.bottom_m.create(size, CV_32FC1);
-  raster.east_m.create(size, CV_32FC1);
-  raster.north_m.create(size, CV_32FC1);
-  raster.known.create(size, CV_8UC1);
-  const auto side_m = static_cast<float>(cell_m);
-  const Cell* cell = cells.data();
-  for (int row = 0; row < size.height; ++row) {
-    for (int column = 0; column < size.width; ++column, ++cell) {
-      const bool known = cell->count > 0;
-      const float mean_m = known ? cell->sum_m / cell->count : 0.F;
-      raster.mean_m.at<float>(row, column) = mean_m;
-      raster.top_m.at<float>(row, column) = known ? std::max(cell->top_m, mean_m) : 0.F;
-      raster.bottom_m.at<float>(row, column) = known ? std::min(cell->bottom_m, mean_m) : 0.F;
-      const float middle_east_m = side_m * (static_cast<float>(column0 + column) + 0.5F);
-      const float middle_north_m = side_m * (static_cast<float>(row0 + row) + 0.5F);
-      raster.east_m.at<float>(row, column) = known ? cell->east_m / cell->count - middle_east_m : 0.F;
-      raster.north_m.at<float>(row, column) = known ? cell->north_m / cell->count - middle_north_m : 0.F;
-      raster.known.at<std::uint8_t>(row, column) = known ? 255 : 0;
-    }
-  }
+  const Cells cells = sort_into_cells(points, cell_m);
+  raster.first_column = static_cast<std::int64_t>(camera_cell.x()) + cells.column0;
+  raster.first_row = static_cast<std::int64_t>(camera_cell.y()) + cells.row0;
+  write_maps(cells, static_cast<float>(cell_m), raster);
   return raster;
 }
 
