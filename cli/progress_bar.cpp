@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 namespace alight {
@@ -31,6 +32,7 @@ void ProgressBar::advance(std::int64_t count, const std::string& extra) {
 
 void ProgressBar::draw() {
   drawn_ = std::chrono::steady_clock::now();
+  if (!spdlog::should_log(spdlog::level::info)) return;
   const double share = std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_));
   const double rate = static_cast<double>(done_) / std::max(elapsed_s(), 1e-3);
   const auto left_s = rate > 0 ? static_cast<std::int64_t>(static_cast<double>(total_ - done_) / rate) : 0;
@@ -49,7 +51,7 @@ void ProgressBar::finish() {
   if (finished_) return;
   finished_ = true;
   draw();
-  if (terminal_) std::fputc('\n', stderr);
+  if (terminal_ && spdlog::should_log(spdlog::level::info)) std::fputc('\n', stderr);
 }
 
 }  // namespace alight

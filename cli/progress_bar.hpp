@@ -8,7 +8,7 @@ namespace alight {
 
 /// One line on stderr for long work: `label  [=====>    ]  42 %  8.1 frames/s  0:31 left  extra`.
 /// Draws at most ten times a second on a terminal. Where stderr is no terminal it prints a plain line every
-/// ten seconds, so that logs show life without being flooded.
+/// ten seconds, so that logs show life without being flooded. Silent where log lines of level info are (--quiet).
 class ProgressBar {
  public:
   ProgressBar(std::string label, std::int64_t total, std::string unit);

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "geometry/wide_loops.hpp"
 
 namespace alight {
 namespace {
@@ -34,120 +35,132 @@ cv::Mat smooth(const cv::Mat& depth_m, int window_px) {
 
 /// An angle of 0 to 180 degrees as sine and cosine of any common length: comparing two needs no arc tangent.
 struct Angle {
-  double sine = 0;
-  double cosine = 1;
+  float sine;
+  float cosine;
 };
-bool larger(const Angle& a, const Angle& b) { return a.sine * b.cosine > b.sine * a.cosine; }
 
-/// The angle by which the slope changes at `centre` on the way from `before` to `after`, which lie on one image row
-/// (axis 0) or column (axis 1): on a plane these three are on a line and the angle is zero.
-Angle bend(const Eigen::Vector3d& before, const Eigen::Vector3d& centre, const Eigen::Vector3d& after,
-           int axis) {
-  const Eigen::Vector3d first = centre - before;
-  const Eigen::Vector3d second = after - centre;
-  if (first[axis] <= 0 || second[axis] <= 0) return {1, 0};
-  const double ground_first = first.head<2>().norm();
-  const double ground_second = second.head<2>().norm();
-  return {std::abs(second.z() * ground_first - first.z() * ground_second),
-          ground_first * ground_second + first.z() * second.z()};
+/// The angle between two steps over the ground, one after the other on an image row or column: their lengths on the
+/// ground and how far they go down. On a plane it is zero. A step that does not lead forward is a fold: 90 degrees.
+Angle bend(float forward1, float ground1_m, float down1_m, float forward2, float ground2_m, float down2_m) {
+  const bool fold = !(forward1 > 0) | !(forward2 > 0);
+  return {fold ? 1.F : std::abs(down2_m * ground1_m - down1_m * ground2_m),
+          fold ? 0.F : ground1_m * ground2_m + down1_m * down2_m};
 }
 
-/// Inclination of the plane spanned by two differences, one along the row and one along the column.
-Angle inclination(const Eigen::Vector3d& along_row, const Eigen::Vector3d& along_column) {
-  const Eigen::Vector3d normal = along_row.cross(along_column);
-  if (normal.z() <= 0) return {1, 0};
-  return {normal.head<2>().norm(), normal.z()};
+/// atan2 for a sine that is not negative, free of branches, right to 3e-7. Below tan(22.5 deg) the quotient of an odd
+/// polynomial of least largest relative error, between there and 1 after taking off 45 degrees.
+float arc_rad(const Angle& a) {
+  constexpr float kEighth_rad = 0.78539816339744831F;
+  constexpr float kTan22 = 0.41421356237309505F;
+  const float across = std::abs(a.cosine);
+  const float larger = a.sine > across ? a.sine : across;
+  const float smaller = a.sine > across ? across : a.sine;
+  const bool upper = smaller > kTan22 * larger;
+  const float numerator = upper ? smaller - larger : smaller;
+  const float denominator = upper ? smaller + larger : larger;
+  const float x = numerator / denominator;
+  const float z = x * x;
+  const float polynomial =
+      ((((-0.06026305237F * z + 0.105698288104F) * z - 0.142395326703F) * z + 0.199981830411F) * z -
+       0.333333068931F) *
+          z +
+      0.999999999371F;
+  float angle = polynomial * x + (upper ? kEighth_rad : 0.F);
+  angle = a.sine > across ? kVertical_rad - angle : angle;
+  return a.cosine < 0 ? 2 * kVertical_rad - angle : angle;
 }
 
-/// Sines and cosines of a row of pixels, so that the arc tangents are taken of many at once.
-class AngleRow {
- public:
-  explicit AngleRow(int width) : sine_(static_cast<std::size_t>(width), 0.F), cosine_(sine_.size(), 1.F) {}
-  void set(int u, const Angle& angle) {
-    sine_[static_cast<std::size_t>(u)] = static_cast<float>(angle.sine);
-    cosine_[static_cast<std::size_t>(u)] = static_cast<float>(angle.cosine);
-  }
-  void write_rad(float* out) const {
-    for (std::size_t u = 0; u < sine_.size(); ++u) out[u] = arc_rad(sine_[u], cosine_[u]);
-  }
-
- private:
-  /// atan2 for a sine that is not negative, free of branches, right to 3e-7. Below tan(22.5 deg) the quotient of an odd
-  /// polynomial of least largest relative error, between there and 1 after taking off 45 degrees.
-  static float arc_rad(float sine, float cosine) {
-    constexpr float kEighth_rad = 0.78539816339744831F;
-    constexpr float kTan22 = 0.41421356237309505F;
-    const float across = std::abs(cosine);
-    const float larger = sine > across ? sine : across;
-    const float smaller = sine > across ? across : sine;
-    const bool upper = smaller > kTan22 * larger;
-    const float numerator = upper ? smaller - larger : smaller;
-    const float denominator = upper ? smaller + larger : larger;
-    const float x = numerator / denominator;
-    const float z = x * x;
-    const float polynomial =
-        ((((-0.06026305237F * z + 0.105698288104F) * z - 0.142395326703F) * z + 0.199981830411F) * z -
-         0.333333068931F) *
-            z +
-        0.999999999371F;
-    float angle = polynomial * x + (upper ? kEighth_rad : 0.F);
-    angle = sine > across ? kVertical_rad - angle : angle;
-    return cosine < 0 ? 2 * kVertical_rad - angle : angle;
-  }
-
-  std::vector<float> sine_;
-  std::vector<float> cosine_;
+/// What a row of pixels compares: its own depths and those a step away, as separate arrays for vector instructions.
+/// Where one of the depths is missing all are those of level ground.
+struct RowDepths {
+  explicit RowDepths(int width)
+      : centre_m(width), left_m(width), right_m(width), up_m(width), down_m(width), step_px(width) {}
+  Eigen::ArrayXf centre_m, left_m, right_m, up_m, down_m, step_px;
 };
+
+/// @param per_x, per_y one over the focal lengths in pixels
+/// @param ray_x of every column, ray_y of the row, at unit depth
+ALIGHT_WIDE_LOOPS void shape_of_row(int width, const float* centre_m, const float* left_m,
+                                    const float* right_m, const float* up_m, const float* down_m,
+                                    const float* step_px, const float* ray_x, float ray_y, float per_x,
+                                    float per_y, float* __restrict slope_rad,
+                                    float* __restrict roughness_rad) {
+  for (int u = 0; u < width; ++u) {
+    const float z = centre_m[u], l = left_m[u], r = right_m[u], t = up_m[u], d = down_m[u];
+    const float dx = step_px[u] * per_x, dy = step_px[u] * per_y;
+    // Two steps along the row, two along the column; x and y lie on the ground, z goes down.
+    const float row1_x = ray_x[u] * (z - l) + dx * l, row1_y = ray_y * (z - l), row1_z = z - l;
+    const float row2_x = ray_x[u] * (r - z) + dx * r, row2_y = ray_y * (r - z), row2_z = r - z;
+    const float column1_x = ray_x[u] * (z - t), column1_y = ray_y * (z - t) + dy * t, column1_z = z - t;
+    const float column2_x = ray_x[u] * (d - z), column2_y = ray_y * (d - z) + dy * d, column2_z = d - z;
+    const Angle along_row = bend(row1_x, std::sqrt(row1_x * row1_x + row1_y * row1_y), row1_z, row2_x,
+                                 std::sqrt(row2_x * row2_x + row2_y * row2_y), row2_z);
+    const Angle along_column =
+        bend(column1_y, std::sqrt(column1_x * column1_x + column1_y * column1_y), column1_z, column2_y,
+             std::sqrt(column2_x * column2_x + column2_y * column2_y), column2_z);
+    const bool column_larger = along_column.sine * along_row.cosine > along_row.sine * along_column.cosine;
+    roughness_rad[u] = arc_rad({column_larger ? along_column.sine : along_row.sine,
+                                column_larger ? along_column.cosine : along_row.cosine});
+    // Inclination of the plane that both spans span.
+    const float ax = row1_x + row2_x, ay = row1_y + row2_y, az = row1_z + row2_z;
+    const float bx = column1_x + column2_x, by = column1_y + column2_y, bz = column1_z + column2_z;
+    const float normal_x = ay * bz - az * by, normal_y = az * bx - ax * bz, normal_z = ax * by - ay * bx;
+    const bool upright = !(normal_z > 0);
+    slope_rad[u] = arc_rad({upright ? 1.F : std::sqrt(normal_x * normal_x + normal_y * normal_y),
+                            upright ? 0.F : normal_z});
+  }
+}
 
 /// Shape of the ground from one row of the smoothed depth.
 class RowMeasure {
  public:
   RowMeasure(const cv::Mat& depth_m, const PinholeIntrinsics& k, double baseline_m)
-      : depth_m_(depth_m), baseline_px_m_(baseline_m * k.fx_px) {
-    for (int u = 0; u < k.width_px; ++u) x_.push_back(k.ray(u, 0).x());
-    for (int v = 0; v < k.height_px; ++v) y_.push_back(k.ray(0, v).y());
+      : depth_m_(depth_m),
+        k_(k),
+        baseline_px_m_(static_cast<float>(baseline_m * k.fx_px)),
+        ray_x_(k.width_px) {
+    for (int u = 0; u < k.width_px; ++u) ray_x_[u] = static_cast<float>(k.ray(u, 0).x());
   }
 
-  void operator()(int v, Terrain& terrain) const {
-    const int width = depth_m_.cols;
-    AngleRow slope(width);
-    AngleRow roughness(width);
-    const auto* const row = depth_m_.ptr<float>(v);
-    auto* const known = terrain.known.ptr<std::uint8_t>(v);
-    for (int u = 0; u < width; ++u) {
-      if (!(row[u] > 0)) continue;
-      const double pixels = std::min(1e6, std::max(1.0, baseline_px_m_ / static_cast<double>(row[u])));
-      const int step = static_cast<int>(pixels + 0.5);
-      if (u < step || v < step || u + step >= width || v + step >= depth_m_.rows) continue;
-      const float up_m = depth_m_.ptr<float>(v - step)[u];
-      const float down_m = depth_m_.ptr<float>(v + step)[u];
-      if (!(row[u - step] > 0 && row[u + step] > 0 && up_m > 0 && down_m > 0)) continue;
-      const Eigen::Vector3d centre = point(u, v, row[u]);
-      const Eigen::Vector3d left = point(u - step, v, row[u - step]);
-      const Eigen::Vector3d right = point(u + step, v, row[u + step]);
-      const Eigen::Vector3d up = point(u, v - step, up_m);
-      const Eigen::Vector3d down = point(u, v + step, down_m);
-      known[u] = 255;
-      slope.set(u, inclination(right - left, down - up));
-      const Angle along_row = bend(left, centre, right, 0);
-      const Angle along_column = bend(up, centre, down, 1);
-      roughness.set(u, larger(along_column, along_row) ? along_column : along_row);
-    }
-    slope.write_rad(terrain.slope_rad.ptr<float>(v));
-    roughness.write_rad(terrain.roughness_rad.ptr<float>(v));
+  void operator()(int v, RowDepths& depths, Terrain& terrain) const {
+    look_around(v, depths, terrain.known.ptr<std::uint8_t>(v));
+    auto* const slope_rad = terrain.slope_rad.ptr<float>(v);
+    auto* const roughness_rad = terrain.roughness_rad.ptr<float>(v);
+    shape_of_row(depth_m_.cols, depths.centre_m.data(), depths.left_m.data(), depths.right_m.data(),
+                 depths.up_m.data(), depths.down_m.data(), depths.step_px.data(), ray_x_.data(),
+                 static_cast<float>(k_.ray(0, v).y()), static_cast<float>(1 / k_.fx_px),
+                 static_cast<float>(1 / k_.fy_px), slope_rad, roughness_rad);
   }
 
  private:
-  /// x and y on the ground, z the depth.
-  Eigen::Vector3d point(int u, int v, float depth_m) const {
-    const auto z = static_cast<double>(depth_m);
-    return {x_[static_cast<std::size_t>(u)] * z, y_[static_cast<std::size_t>(v)] * z, z};
+  void look_around(int v, RowDepths& depths, std::uint8_t* known) const {
+    const int width = depth_m_.cols;
+    const auto* const row = depth_m_.ptr<float>(v);
+    for (int u = 0; u < width; ++u) {
+      const float pixels = std::min(1e6F, std::max(1.F, baseline_px_m_ / row[u]));
+      const int step = row[u] > 0 ? static_cast<int>(pixels + 0.5F) : width;
+      float left_m = 0, right_m = 0, up_m = 0, down_m = 0;
+      if (u >= step && v >= step && u + step < width && v + step < depth_m_.rows) {
+        left_m = row[u - step];
+        right_m = row[u + step];
+        up_m = depth_m_.ptr<float>(v - step)[u];
+        down_m = depth_m_.ptr<float>(v + step)[u];
+      }
+      const bool all = left_m > 0 && right_m > 0 && up_m > 0 && down_m > 0;
+      known[u] = all ? 255 : 0;
+      depths.centre_m[u] = all ? row[u] : 1.F;
+      depths.left_m[u] = all ? left_m : 1.F;
+      depths.right_m[u] = all ? right_m : 1.F;
+      depths.up_m[u] = all ? up_m : 1.F;
+      depths.down_m[u] = all ? down_m : 1.F;
+      depths.step_px[u] = static_cast<float>(step);
+    }
   }
 
   const cv::Mat& depth_m_;  // 0: unknown
-  double baseline_px_m_;
-  std::vector<double> x_;
-  std::vector<double> y_;
+  const PinholeIntrinsics& k_;
+  float baseline_px_m_;
+  Eigen::ArrayXf ray_x_;
 };
 
 }  // namespace
@@ -170,7 +183,8 @@ Terrain measure_terrain(const cv::Mat& level_depth_m, const PinholeIntrinsics& i
   const cv::Mat smoothed_m = smooth(level_depth_m, config.smoothing_px);
   const RowMeasure measure_row(smoothed_m, intrinsics, config.derivative_baseline_m);
   cv::parallel_for_({0, size.height}, [&](const cv::Range& rows) {
-    for (int v = rows.start; v < rows.end; ++v) measure_row(v, terrain);
+    RowDepths depths(size.width);
+    for (int v = rows.start; v < rows.end; ++v) measure_row(v, depths, terrain);
   });
   return terrain;
 }
