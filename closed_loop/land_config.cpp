@@ -20,7 +20,6 @@ void bind(Binder& b, LandFlightConfig& c) {
 }
 
 LandConfig::LandConfig() {
-  landing.selection.method = LandingMethod::kPlaneFit;  // docs/campaign.md
   renderer.edge_samples = 1;
   sensors.camera.rate_hz = 10;
   sensors.gps.drift_kind = sim::DriftKind::kSmooth;

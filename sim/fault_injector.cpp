@@ -203,7 +203,7 @@ const std::vector<Fault>& all_faults() {
       {"eyes swapped", "stereo", "eyes swapped", "degraded", eyes_swapped},
       {"right eye 0.2 s late", "stereo", "eyes misaligned", "degraded",
        [](T t) { return eyes_late(t, false, 2); }},
-      {"both eyes 0.2 s late, stamps as if not", "", "", "", [](T t) { return eyes_late(t, true, 2); }},
+      {"both eyes 0.2 s late with stamps as if not", "", "", "", [](T t) { return eyes_late(t, true, 2); }},
       {"camera clock 0.3 s ahead", "left camera", "clock jump", "degraded",
        [](T t) { return stamps_shifted<StereoFrame>(t, 0.3); }},
       {"camera clock 2 s behind", "left camera", "clock jump", "degraded",

@@ -24,8 +24,7 @@ enum class LandingMethod {
 
 /// What counts as safe ground (paper 3.3; the paper's t_inc, t_tur and R).
 struct SiteSelectionConfig {
-  LandingMethod method =
-      LandingMethod::kDerivatives;  ///< plane_fit refuses the LiDAR's noise as yet (docs/landing.md)
+  LandingMethod method = LandingMethod::kPlaneFit;
   double max_slope_deg = 10;
   // plane_fit
   PlaneFitConfig plane_fit;

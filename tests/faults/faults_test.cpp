@@ -231,6 +231,10 @@ std::string test_name(const ::testing::TestParamInfo<std::size_t>& info) {
   return name;
 }
 
+TEST(FaultNames, StandInListsSeparatedByCommas) {
+  for (const Fault& fault : all_faults()) EXPECT_EQ(fault.name.find(','), std::string::npos) << fault.name;
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Faults, ::testing::Range<std::size_t>(0, all_faults().size()), test_name);
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST_F(SiteCheckTest, ASiteMovesAwayFromAnObstacleBesideIt) {
   cv::Mat depth = scenes::level_ground(camera_, kHeight_m);
   // image right is world east
   scenes::change(
-      depth, camera_, kHeight_m, [](double x, double) { return x > 0.9; }, static_cast<float>(kHeight_m - 2));
+      depth, camera_, kHeight_m, [](double x, double) { return x > 1.2; }, static_cast<float>(kHeight_m - 2));
   SiteCheckRule rule;
   EXPECT_EQ(check(depth, {0, 0, 0}, rule).verdict, SiteVerdict::kUnsafe);
   rule.nudge_m = 2;
