@@ -49,9 +49,16 @@ void put(cv::Mat& image, const std::string& text, cv::Point at, const cv::Scalar
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, size, ink, 1, cv::LINE_AA);
 }
 
+/// So that text on it can be read.
+void lighten(cv::Mat& image, const cv::Rect& where) {
+  cv::Mat panel = image(where & cv::Rect({0, 0}, image.size()));
+  panel.convertTo(panel, -1, 0.15, 0.85 * 255);
+}
+
 void put_legend(cv::Mat& image, const FlownLanding& flown, cv::Point at) {
   std::set<MissionState> seen;
   for (const TrackPoint& point : flown.track) seen.insert(point.state);
+  lighten(image, {at.x - 8, at.y - 12, 150, 19 * static_cast<int>(seen.size()) + 8});
   for (const MissionState state : kMissionStates) {
     if (seen.count(state) == 0) continue;
     cv::line(image, at, at + cv::Point(22, 0), colour(state), 3, cv::LINE_AA);
@@ -203,7 +210,11 @@ cv::Mat top_picture(const FlownLanding& flown, const sim::SurfaceTruth& truth, d
   cv::circle(image, end, std::max(3, static_cast<int>(body_radius_m * kPixelsPerMetre)),
              good ? cv::Scalar(0, 255, 0) : cv::Scalar(0, 0, 255), 2, cv::LINE_AA);
   put_legend(image, flown, {12, 20});
-  put(image, "green: truly safe; circle: the vehicle's footprint", {12, side - 12}, {255, 255, 255});
+  lighten(image, {4, side - 28, 630, 24});
+  put(image,
+      cv::format("green: truly safe; small circle: the vehicle's footprint; large: geofence of %.0f m radius",
+                 flown.fence_m),
+      {12, side - 12});
   return image;
 }
 
