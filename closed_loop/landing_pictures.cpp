@@ -170,19 +170,18 @@ cv::Mat trajectory_picture(const FlownLanding& flown, const sim::SurfaceTruth& t
 }
 
 cv::Mat top_picture(const FlownLanding& flown, const sim::SurfaceTruth& truth, double body_radius_m) {
-  constexpr double kPixelsPerMetre = 9;
+  constexpr int kSide_px = 792;
   const double half_m = flown.fence_m + 4;
-  const int side = static_cast<int>(std::lround(2 * half_m * kPixelsPerMetre));
+  const double px_per_m = kSide_px / (2 * half_m);
   const auto to_pixel = [&](double x_m, double y_m) {
-    return cv::Point(
-        static_cast<int>(std::lround((x_m - flown.fence_middle.x() + half_m) * kPixelsPerMetre)),
-        static_cast<int>(std::lround((half_m - (y_m - flown.fence_middle.y())) * kPixelsPerMetre)));
+    return cv::Point(static_cast<int>(std::lround((x_m - flown.fence_middle.x() + half_m) * px_per_m)),
+                     static_cast<int>(std::lround((half_m - (y_m - flown.fence_middle.y())) * px_per_m)));
   };
-  cv::Mat image(side, side, CV_8UC3);
-  for (int v = 0; v < side; ++v) {
-    for (int u = 0; u < side; ++u) {
-      const double x_m = flown.fence_middle.x() + u / kPixelsPerMetre - half_m;
-      const double y_m = flown.fence_middle.y() + half_m - v / kPixelsPerMetre;
+  cv::Mat image(kSide_px, kSide_px, CV_8UC3);
+  for (int v = 0; v < kSide_px; ++v) {
+    for (int u = 0; u < kSide_px; ++u) {
+      const double x_m = flown.fence_middle.x() + u / px_per_m - half_m;
+      const double y_m = flown.fence_middle.y() + half_m - v / px_per_m;
       const auto here = truth.ground_at(x_m, y_m);
       const double beside_m = truth.elevation_m(x_m - 0.2, y_m + 0.2);
       if (!here || !std::isfinite(here->elevation_m)) {
@@ -198,7 +197,13 @@ cv::Mat top_picture(const FlownLanding& flown, const sim::SurfaceTruth& truth, d
     }
   }
   cv::circle(image, to_pixel(flown.fence_middle.x(), flown.fence_middle.y()),
-             static_cast<int>(flown.fence_m * kPixelsPerMetre), {255, 255, 255}, 1, cv::LINE_AA);
+             static_cast<int>(flown.fence_m * px_per_m), {255, 255, 255}, 1, cv::LINE_AA);
+  put_legend(image, flown, {12, 20});
+  lighten(image, {4, kSide_px - 28, 630, 24});
+  put(image,
+      cv::format("green: truly safe; small circle: the vehicle's footprint; large: geofence of %.0f m radius",
+                 flown.fence_m),
+      {12, kSide_px - 12});
   for (std::size_t i = 1; i < flown.track.size(); ++i) {
     const Eigen::Vector3d& a = flown.track[i - 1].p_world;
     const Eigen::Vector3d& b = flown.track[i].p_world;
@@ -207,14 +212,8 @@ cv::Mat top_picture(const FlownLanding& flown, const sim::SurfaceTruth& truth, d
   }
   const cv::Point end = to_pixel(flown.result.p_end.x(), flown.result.p_end.y());
   const bool good = flown.result.outcome == Outcome::kSafe;
-  cv::circle(image, end, std::max(3, static_cast<int>(body_radius_m * kPixelsPerMetre)),
+  cv::circle(image, end, std::max(3, static_cast<int>(body_radius_m * px_per_m)),
              good ? cv::Scalar(0, 255, 0) : cv::Scalar(0, 0, 255), 2, cv::LINE_AA);
-  put_legend(image, flown, {12, 20});
-  lighten(image, {4, side - 28, 630, 24});
-  put(image,
-      cv::format("green: truly safe; small circle: the vehicle's footprint; large: geofence of %.0f m radius",
-                 flown.fence_m),
-      {12, side - 12});
   return image;
 }
 

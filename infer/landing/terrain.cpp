@@ -106,8 +106,8 @@ ALIGHT_WIDE_LOOPS void shape_of_row(int width, const float* centre_m, const floa
     const float bx = column1_x + column2_x, by = column1_y + column2_y, bz = column1_z + column2_z;
     const float normal_x = ay * bz - az * by, normal_y = az * bx - ax * bz, normal_z = ax * by - ay * bx;
     const bool upright = !(normal_z > 0);
-    slope_rad[u] = arc_rad({upright ? 1.F : std::sqrt(normal_x * normal_x + normal_y * normal_y),
-                            upright ? 0.F : normal_z});
+    slope_rad[u] = arc_rad(
+        {upright ? 1.F : std::sqrt(normal_x * normal_x + normal_y * normal_y), upright ? 0.F : normal_z});
   }
 }
 

@@ -1,7 +1,8 @@
 #include "cli/progress_bar.hpp"
 
-#include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
+
+#include <gtest/gtest.h>
 
 namespace alight {
 namespace {
