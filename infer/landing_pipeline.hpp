@@ -19,12 +19,13 @@ namespace alight {
 enum class SiteSource {
   kFrame,  ///< what this frame's depth says (the paper)
   kFused,  ///< what all frames together know of the ground
+  kBoth,   ///< this frame's depth, less where an earlier one saw something rise or fall; plane_fit only
 };
 
 /// What makes a landing site. Files: configs/landing/*.yaml
 struct LandingConfig {
   SiteSelectionConfig selection;
-  bool fuse = true;  ///< keep the elevation grid; needed for site_source fused
+  bool fuse = true;  ///< keep the elevation grid; needed for site_source fused and both
   SiteSource site_source = SiteSource::kFrame;
   ElevationGridConfig grid;
   SiteTrackerConfig tracker;

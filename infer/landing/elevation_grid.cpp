@@ -259,4 +259,16 @@ cv::Mat ElevationGrid::hazards(const ElevationRaster& raster) const {
   return out;
 }
 
+cv::Mat ElevationGrid::obstacles(const ElevationRaster& raster) const {
+  cv::Mat out = cv::Mat::zeros(raster.size(), CV_8UC1);
+  for (int row = 0; row < out.rows; ++row) {
+    for (int column = 0; column < out.cols; ++column) {
+      const Eigen::Vector2d middle_m = raster.centre_m(column, row);
+      const ElevationCell* remembered = cell(middle_m.x(), middle_m.y());
+      if (remembered != nullptr && remembered->has_obstacle()) out.at<std::uint8_t>(row, column) = 255;
+    }
+  }
+  return out;
+}
+
 }  // namespace alight

@@ -75,6 +75,10 @@ class ElevationGrid {
   /// CV_8UC1 of raster()'s size, 255 = no LiDAR returns where they were due.
   cv::Mat hazards(const ElevationRaster& raster) const;
 
+  /// CV_8UC1 of the raster's size, 255 = over the cell's middle something is remembered that rises or falls. Cells of any
+  /// size.
+  cv::Mat obstacles(const ElevationRaster& raster) const;
+
   /// The cell over a place; null outside the window. count == 0: unknown.
   const ElevationCell* cell(double east_m, double north_m) const;
   /// Added to the grid's heights they are those of the latest frame.

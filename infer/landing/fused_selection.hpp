@@ -20,6 +20,10 @@ class FusedSelector {
   SiteSelection update(std::int64_t t_ns, const cv::Mat& depth_m, const cv::Mat& sparse_m,
                        const Eigen::Isometry3d& T_world_camera, const SiteSelection& frame);
 
+  /// The frame's decision once more, with what is remembered to stand or hang somewhere as a hazard there.
+  /// @param frame of plane_fit, already given to update(). Its sites lose what they knew of a confidence.
+  SiteSelection with_memory(const SiteSelection& frame, const Eigen::Isometry3d& T_world_camera) const;
+
   const ElevationGrid& grid() const { return grid_; }
 
  private:

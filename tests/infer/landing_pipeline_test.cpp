@@ -48,7 +48,7 @@ TEST(LandingPipeline, LevelGroundIsAcceptedInTheFifthFrame) {
 
 TEST(LandingPipeline, BothDecisionsAreMadeAndTheConfiguredOneIsFollowed) {
   fakes::LevelWorld world(kHeight_m);
-  for (const SiteSource source : {SiteSource::kFrame, SiteSource::kFused}) {
+  for (const SiteSource source : {SiteSource::kFrame, SiteSource::kFused, SiteSource::kBoth}) {
     LandingConfig landing;
     landing.site_source = source;
     const auto frames = fly(fakes::flight(world, {1.0}),
@@ -68,6 +68,9 @@ TEST(LandingPipeline, BothDecisionsAreMadeAndTheConfiguredOneIsFollowed) {
                           std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }), forgetful);
   EXPECT_FALSE(frames.front().fused);
   EXPECT_THROW(parse_config<LandingConfig>("{fuse: false, site_source: fused}", "x"), ConfigError);
+  EXPECT_THROW(parse_config<LandingConfig>("{fuse: false, site_source: both}", "x"), ConfigError);
+  EXPECT_THROW(parse_config<LandingConfig>("{site_source: both, selection: {method: derivatives}}", "x"),
+               ConfigError);
 }
 
 TEST(LandingPipeline, NoTrustedDepthNoSiteAndWanderAfterFiveSeconds) {

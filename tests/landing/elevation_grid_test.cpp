@@ -218,6 +218,12 @@ TEST_F(ElevationGridTest, FusedSelectionKeepsAwayFromWhatTheFrameDoesNotSee) {
   EXPECT_LT((frame.largest->p_world.head<2>() - pole).norm(), frame.largest->radius_m);
   ASSERT_TRUE(remembered.largest);
   EXPECT_GT((remembered.largest->p_world.head<2>() - pole).norm(), remembered.largest->radius_m);
+  // The frame's own ground, less the pole that an earlier frame saw.
+  const SiteSelection both = fused.with_memory(frame, T);
+  ASSERT_TRUE(both.largest);
+  EXPECT_GT((both.largest->p_world.head<2>() - pole).norm(), both.largest->radius_m);
+  EXPECT_EQ(cv::countNonZero(both.safe & ~frame.safe), 0);
+  EXPECT_LT(cv::countNonZero(both.safe), cv::countNonZero(frame.safe));
 }
 
 TEST(ElevationGridConfig, BadValuesAreRefused) {
