@@ -12,9 +12,10 @@ void bind(Binder& b, LandingConfig& c) {
       {{"frame", SiteSource::kFrame}, {"fused", SiteSource::kFused}, {"both", SiteSource::kBoth}},
       "frame: this frame's depth decides; fused: the remembered ground; both: the frame, less remembered "
       "obstacles");
-  b.check("site_source", c.fuse || c.site_source == SiteSource::kFrame, "fused and both need fuse: true");
+  b.check("site_source", c.fuse || c.site_source == SiteSource::kFrame,
+          "fused and both need fuse: true; say site_source: frame");
   b.check("site_source", c.site_source != SiteSource::kBoth || c.selection.method == LandingMethod::kPlaneFit,
-          "both needs selection.method: plane_fit");
+          "both needs selection.method: plane_fit; say site_source: frame");
   b.section("grid", c.grid, "what is remembered of the ground");
   b.section("tracker", c.tracker, "when a site counts");
 }
@@ -93,7 +94,7 @@ FrameReport SiteStage::report(SensedDepth sensed) {
     frame.fused = fused_->update(frame.depth.t_ns, frame.depth.depth_m, frame.depth.sparse_m, T_world_camera,
                                  *frame.selection);
     frame.from_fused = site_source_ == SiteSource::kFused;
-    if (site_source_ == SiteSource::kBoth)
+    if (site_source_ == SiteSource::kBoth && !frame.selection->ground.empty())
       frame.selection = fused_->with_memory(*frame.selection, T_world_camera);
   }
   frame.decision = tracker_.update(frame.depth.t_ns, frame.decisive(), T_world_camera);

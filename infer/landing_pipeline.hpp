@@ -26,7 +26,7 @@ enum class SiteSource {
 struct LandingConfig {
   SiteSelectionConfig selection;
   bool fuse = true;  ///< keep the elevation grid; needed for site_source fused and both
-  SiteSource site_source = SiteSource::kFrame;
+  SiteSource site_source = SiteSource::kBoth;
   ElevationGridConfig grid;
   SiteTrackerConfig tracker;
 };
