@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "geometry/frames.hpp"
 
@@ -13,6 +14,13 @@ namespace {
 constexpr double kFlat_m = 0.3;    // a cell whose heights differ by more has an edge or leaves in it
 constexpr double kFarOff_m = 1.0;  // farther off is not worse
 constexpr int kEchoesOfACell = 8;
+
+/// Mean distance of height differences to one of them.
+double mean_off(const std::vector<double>& off_m, double from_m) {
+  double sum_m = 0;
+  for (const double off : off_m) sum_m += std::min(kFarOff_m, std::abs(off - from_m));
+  return sum_m / static_cast<double>(off_m.size());
+}
 
 }  // namespace
 
@@ -24,20 +32,22 @@ std::int64_t GroundMemory::cell_of(const Eigen::Vector3d& p_world) const {
 
 GroundFit GroundMemory::fit(const std::vector<Eigen::Vector3d>& points) const {
   std::unordered_set<std::int64_t> seen;
-  double sum_m = 0;
-  std::size_t count = 0;
+  std::vector<double> off_m;
   for (const Eigen::Vector3d& p_world : points) {
     const auto found = cells_.find(cell_of(p_world));
     if (found == cells_.end()) continue;
     const Cell& cell = found->second;
     if (cell.count < kEchoesOfACell || cell.max_m - cell.min_m > kFlat_m) continue;
     seen.insert(found->first);
-    sum_m += std::min(kFarOff_m, std::abs(p_world.z() - cell.sum_m / cell.count));
-    ++count;
+    off_m.push_back(p_world.z() - cell.sum_m / cell.count);
   }
   GroundFit fit;
   fit.cells = static_cast<int>(seen.size());
-  if (count > 0) fit.misfit_m = sum_m / static_cast<double>(count);
+  if (off_m.empty()) return fit;
+  fit.misfit_m = mean_off(off_m, 0);
+  const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
+  std::nth_element(off_m.begin(), middle, off_m.end());
+  fit.shape_misfit_m = mean_off(off_m, *middle);
   return fit;
 }
 

@@ -16,6 +16,8 @@ namespace alight {
 struct GroundFit {
   int cells = 0;        ///< flat cells that both saw; below LidarHealthConfig::min_cells nothing is said
   double misfit_m = 0;  ///< mean height difference there, each no more than a metre
+  double shape_misfit_m =
+      0;  ///< what is left of it where the middle difference is taken away: a drift of the height
 };
 
 /// The heights of the last second's LiDAR echoes in the world, in square cells. As the vehicle moves and tilts, echoes

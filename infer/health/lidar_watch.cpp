@@ -7,12 +7,14 @@
 #include <utility>
 
 #include "dataset/alignment.hpp"
+#include "geometry/frames.hpp"
 
 namespace alight {
 namespace {
 
 constexpr std::size_t kUsualPackets = 20;
 constexpr std::size_t kComparedEchoes = 2000;
+const Eigen::Vector3d kMirrors[] = {{1, -1, 1}, {1, 1, -1}, {1, -1, -1}};  // left-right, front-back, both
 constexpr std::int64_t kNeighbours_ns = 50'000;  // further apart in time is further apart in angle
 
 template <class... Values>
@@ -111,30 +113,61 @@ std::vector<Eigen::Vector3d> LidarWatch::in_world(const LidarPacket& packet, con
   return points;
 }
 
-bool LidarWatch::mirror_fits(const LidarPacket& packet, const Trajectory& trajectory, double misfit_m) const {
-  const Eigen::Vector3d mirrors[] = {{1, -1, 1}, {1, 1, -1}, {1, -1, -1}};
-  return std::any_of(std::begin(mirrors), std::end(mirrors), [&](const Eigen::Vector3d& signs) {
-    const GroundFit fit = ground_.fit(in_world(packet, trajectory, signs));
-    return fit.cells >= config_.lidar.min_cells && fit.misfit_m < config_.lidar.mirror_gain * misfit_m;
-  });
+bool LidarWatch::mirror_fits(const LidarPacket& packet, const Trajectory& trajectory, double misfit_m) {
+  bool any = false;
+  for (std::size_t i = 0; i < std::size(kMirrors); ++i) {
+    const GroundFit fit = ground_.fit(in_world(packet, trajectory, kMirrors[i]));
+    if (fit.cells < config_.lidar.min_cells || fit.misfit_m >= config_.lidar.mirror_gain * misfit_m) continue;
+    mirrors_fitted_[i] = true;
+    any = true;
+  }
+  return any;
+}
+
+/// A mirrored LiDAR is believed again only by the ground from before: over level ground its echoes would agree with
+/// everything, and the next house would stand on the wrong side. For recover_s every packet that tells the one from the
+/// other has to fit as it is, and no mirror image that fitted before may.
+void LidarWatch::watch_mirror(const LidarPacket& packet, const Trajectory& trajectory, const GroundFit& fit) {
+  const LidarHealthConfig& limits = config_.lidar;
+  if (fit.cells < limits.min_cells) return;
+  bool straight = fit.misfit_m <= limits.max_misfit_m;
+  for (std::size_t i = 0; i < std::size(kMirrors); ++i) {
+    if (!mirrors_fitted_[i]) continue;
+    const GroundFit image = ground_.fit(in_world(packet, trajectory, kMirrors[i]));
+    if (image.cells >= limits.min_cells && image.shape_misfit_m < limits.mirror_gain * fit.shape_misfit_m)
+      straight_ns_.reset();
+    straight = straight && image.cells >= limits.min_cells &&
+               image.shape_misfit_m >= limits.mirror_misfit_m &&
+               fit.shape_misfit_m < limits.mirror_gain * image.shape_misfit_m;
+  }
+  if (!straight) return;
+  if (!straight_ns_) straight_ns_ = packet.t_ns;
+  if (to_seconds(packet.t_ns - *straight_ns_) < config_.recover_s) return;
+  mirrored_.clear();
+  mirrors_fitted_ = {};
+  straight_ns_.reset();
+  doubted_.clear();
 }
 
 /// A packet that contradicts the ground does not become part of it. As the vehicle flies on, that ground falls behind;
-/// then the doubted packets have to be at one among themselves before they are believed again. A mirrored LiDAR never
-/// is: over level ground its echoes would agree, and the next house would stand on the wrong side.
+/// then the doubted packets have to be at one among themselves before they are believed again.
 bool LidarWatch::contradicts_ground(std::int64_t t_ns, const LidarPacket& packet,
                                     const Trajectory& trajectory) {
   const LidarHealthConfig& limits = config_.lidar;
   const std::vector<Eigen::Vector3d> points = in_world(packet, trajectory, {1, 1, 1});
+  if (mirrored_.present()) {
+    watch_mirror(packet, trajectory, ground_.fit(points));
+    return mirrored_.present();
+  }
   const bool doubted = strange_.present();
   const GroundFit fit = (doubted ? doubted_ : ground_).fit(points);
   const bool common = fit.cells >= limits.min_cells;
-  const bool mirrored =
-      mirrored_.present() || (!doubted && common && fit.misfit_m >= limits.mirror_misfit_m &&
-                              mirror_fits(packet, trajectory, fit.misfit_m));
+  const bool mirrored = !doubted && common && fit.misfit_m >= limits.mirror_misfit_m &&
+                        mirror_fits(packet, trajectory, fit.misfit_m);
   const bool strange = !mirrored && (common ? fit.misfit_m > limits.max_misfit_m : doubted);
   const std::string reason = format("%.2f m off the ground of the second before", fit.misfit_m);
-  if (!mirrored_.present()) mirrored_.look(config_, t_ns, mirrored, reason + "; mirrored it fits");
+  mirrored_.look(config_, t_ns, mirrored, reason + "; mirrored it fits");
+  if (!mirrored_.suspected()) mirrors_fitted_ = {};
   strange_.look(config_, t_ns, strange, reason);
   const bool recovered = doubted && !strange_.present();
   if (recovered) {

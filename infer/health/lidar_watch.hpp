@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -36,7 +37,9 @@ class LidarWatch {
   void count_points(std::int64_t t_ns, const LidarPacket& packet);
   bool noisy(std::int64_t t_ns, const LidarPacket& packet);
   bool frozen(std::int64_t t_ns, const LidarPacket& packet);
-  bool mirror_fits(const LidarPacket& packet, const Trajectory& trajectory, double misfit_m) const;
+  /// Notes which mirrors fit. @returns whether there is one
+  bool mirror_fits(const LidarPacket& packet, const Trajectory& trajectory, double misfit_m);
+  void watch_mirror(const LidarPacket& packet, const Trajectory& trajectory, const GroundFit& fit);
   bool contradicts_ground(std::int64_t t_ns, const LidarPacket& packet, const Trajectory& trajectory);
   /// Some of the packet's echoes in the world, with the LiDAR's y and z axes multiplied by `signs`.
   std::vector<Eigen::Vector3d> in_world(const LidarPacket& packet, const Trajectory& trajectory,
@@ -53,6 +56,8 @@ class LidarWatch {
   Symptom noise_;
   Symptom frozen_;
   Symptom mirrored_;
+  std::array<bool, 3> mirrors_fitted_{};     // since the LiDAR is thought to be mirrored
+  std::optional<std::int64_t> straight_ns_;  // since then packets that said anything were no mirror images
   Symptom strange_;
 };
 

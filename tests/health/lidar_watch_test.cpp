@@ -12,7 +12,6 @@ namespace alight {
 namespace {
 
 constexpr double kHeight_m = 20;
-constexpr double kSpeed_mps = 3;
 
 Eigen::Isometry3d T_imu_lidar() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();  // boresight down, up = forward
@@ -20,13 +19,16 @@ Eigen::Isometry3d T_imu_lidar() {
   return T;
 }
 
-/// A LiDAR at 20 m that flies east at 3 m/s over level ground with a house (5 m high) every 12 m, to the left of the way.
+/// A LiDAR at 20 m that flies east, at 3 m/s if nothing else is said, over level ground with a house (5 m high) every 12 m, to the left of the way.
 class Flight {
  public:
-  explicit Flight(unsigned seed = 1) : random_(seed), trajectory_(0.1) {
+  /// @param drift_mps by which the trajectory's height is off more and more
+  explicit Flight(unsigned seed = 1, double speed_mps = 3, double drift_mps = 0)
+      : speed_mps_(speed_mps), random_(seed), trajectory_(0.1) {
     for (int i = 0; i <= 600; ++i) {
       trajectory_.add_attitude(at(0.01 * i), Eigen::Quaterniond::Identity());
-      trajectory_.add_position(at(0.01 * i), Eigen::Vector3d(kSpeed_mps * 0.01 * i, 0, kHeight_m));
+      trajectory_.add_position(at(0.01 * i),
+                               Eigen::Vector3d(speed_mps_ * 0.01 * i, 0, kHeight_m + drift_mps * 0.01 * i));
     }
   }
   static std::int64_t at(double s) { return to_nanoseconds(s); }
@@ -39,7 +41,7 @@ class Flight {
     for (int i = 0; i < count; ++i) {
       LidarReturn echo;
       echo.t_ns = packet.t_ns + (i + 1) * 10'000;
-      const Eigen::Vector3d p_world_lidar(kSpeed_mps * to_seconds(echo.t_ns), 0, kHeight_m);
+      const Eigen::Vector3d p_world_lidar(speed_mps_ * to_seconds(echo.t_ns), 0, kHeight_m);
       // A rosette: neighbouring shots are neighbours on the ground.
       const double shot = 10000.0 * k + i;
       const double left = 0.3 * std::sin(0.0076 * shot) * std::cos(0.00231 * shot);
@@ -55,6 +57,7 @@ class Flight {
   }
 
  private:
+  double speed_mps_;
   std::mt19937 random_;
   Trajectory trajectory_;
 };
@@ -83,6 +86,43 @@ TEST(LidarWatch, MirroredEchoesMeetTheGroundOnTheOtherSide) {
               for (LidarReturn& echo : p.returns) echo.p_lidar.y() *= -1;
             }),
             "mirrored");
+}
+
+/// 2 s of healthy packets, 1 s of mirrored ones, then `after_s` of others. @returns whether the LiDAR is used again
+bool used_after_mirror(Flight flight, double after_s, bool still_mirrored) {
+  LidarWatch watch({}, T_imu_lidar());
+  const auto mirror = [](LidarPacket& packet) {
+    for (LidarReturn& echo : packet.returns) echo.p_lidar.y() *= -1;
+  };
+  int k = 0;
+  for (; k < 20; ++k) EXPECT_TRUE(watch.add(flight.packet(k), flight.trajectory())) << k;
+  for (; k < 30; ++k) {
+    LidarPacket packet = flight.packet(k);
+    mirror(packet);
+    EXPECT_FALSE(watch.add(packet, flight.trajectory())) << k;
+  }
+  EXPECT_FALSE(watch.usable());
+  for (const int end = k + static_cast<int>(10 * after_s); k < end; ++k) {
+    LidarPacket packet = flight.packet(k);
+    if (still_mirrored) mirror(packet);
+    watch.add(packet, flight.trajectory());
+  }
+  return watch.usable();
+}
+
+TEST(LidarWatch, AMirrorThatIsGoneIsForgottenWhereTheGroundFromBeforeShowsIt) {
+  EXPECT_FALSE(used_after_mirror(Flight(1, 0.5), 0.9, false));  // not before recover_s
+  EXPECT_TRUE(used_after_mirror(Flight(1, 0.5), 1.5, false));
+  EXPECT_FALSE(used_after_mirror(Flight(1, 0.5), 2.5, true));
+}
+
+TEST(LidarWatch, AMirrorIsNotForgottenOverOtherGround) {
+  // 12 m farther, houses stand the same way again; but nothing of it was seen before the mirror came.
+  EXPECT_FALSE(used_after_mirror(Flight(1, 12), 2.5, false));
+}
+
+TEST(LidarWatch, AMirrorIsForgottenThoughTheHeightHasDrifted) {
+  EXPECT_TRUE(used_after_mirror(Flight(1, 0.5, 0.1), 2.5, false));
 }
 
 TEST(LidarWatch, SingleEchoesInTheAirAreNoise) {
