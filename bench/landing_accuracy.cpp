@@ -26,10 +26,11 @@ struct Options {
   int first_seed = 9001;
   int stations = 4;
   double max_tilt_deg = 15;
+  double column_m = 5.5;
 };
 
-const std::vector<std::string> kMethods = {"plane fit", "derivatives (paper)", "PX4-Avoidance",
-                                           "HALSS circles"};
+const std::vector<std::string> kMethods = {"plane fit", "plane fit, column in view", "derivatives (paper)",
+                                           "PX4-Avoidance", "HALSS circles"};
 
 /// Scores a method collects: of every height and of every world.
 struct Tally {
@@ -38,19 +39,20 @@ struct Tally {
   MaskScore all;
 };
 
-std::vector<cv::Mat> masks(const SiteSelector& planes, const SiteSelector& derivatives,
-                           const cv::Mat& depth_m, const Eigen::Isometry3d& T, cv::Mat& level_depth_m) {
+std::vector<cv::Mat> masks(const SiteSelector& planes, const SiteSelector& columns,
+                           const SiteSelector& derivatives, const cv::Mat& depth_m,
+                           const Eigen::Isometry3d& T, cv::Mat& level_depth_m) {
   const PinholeIntrinsics& k = planes.intrinsics();
   const SiteSelection selection = planes.select(depth_m, T);
   level_depth_m = selection.level_depth_m;
-  return {selection.safe, derivatives.select(depth_m, T).safe,
+  return {selection.safe, columns.select(depth_m, T).safe, derivatives.select(depth_m, T).safe,
           px4_safe_mask(depth_m, level_depth_m, k, T, selection.R_level_camera),
           halss_safe_mask(depth_m, level_depth_m, k, T, selection.R_level_camera,
                           planes.config().max_slope_deg, planes.config().min_radius_m)};
 }
 
 void run_world(const sim::WorldConfig& place, const Options& options, const SiteSelector& planes,
-               const SiteSelector& derivatives, std::vector<Tally>& tallies) {
+               const SiteSelector& columns, const SiteSelector& derivatives, std::vector<Tally>& tallies) {
   const sim::World world(place);
   const sim::Renderer renderer(world);
   const sim::SurfaceTruthConfig truth_config;
@@ -64,7 +66,7 @@ void run_world(const sim::WorldConfig& place, const Options& options, const Site
       const PerfectDepth perfect = perfect_depth(renderer, k, s.T_world_camera);
       cv::Mat level_depth_m;
       const std::vector<cv::Mat> safe =
-          masks(planes, derivatives, perfect.depth_m, s.T_world_camera, level_depth_m);
+          masks(planes, columns, derivatives, perfect.depth_m, s.T_world_camera, level_depth_m);
       const Eigen::Matrix3d R_level_camera = level_rotation(s.T_world_camera.linear());
       Eigen::Isometry3d T_world_level = s.T_world_camera;
       T_world_level.linear() = s.T_world_camera.linear() * R_level_camera.transpose();
@@ -134,6 +136,8 @@ int measure(const Options& options) {
   config.method = LandingMethod::kPlaneFit;
   const PinholeIntrinsics k = paper_rig().intrinsics;
   const SiteSelector planes(config, k);
+  config.column_m = options.column_m;
+  const SiteSelector columns(config, k);
   config.method = LandingMethod::kDerivatives;
   const SiteSelector derivatives(config, k);
   std::vector<Tally> tallies(kMethods.size());
@@ -142,7 +146,7 @@ int measure(const Options& options) {
     for (int i = 0; i < options.seeds; ++i) {
       const auto place = parse_config<sim::WorldConfig>(
           "{look: " + look + ", seed: " + std::to_string(options.first_seed + i) + "}", "--looks");
-      run_world(place, options, planes, derivatives, tallies);
+      run_world(place, options, planes, columns, derivatives, tallies);
       progress.advance();
     }
   }
@@ -177,6 +181,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--max-tilt", options.max_tilt_deg, "Roll and pitch are drawn up to this, degrees")
       ->check(CLI::Range(0.0, 30.0))
+      ->capture_default_str();
+  app.add_option("--column", options.column_m, "selection.column_m of the second rule")
       ->capture_default_str();
   return alight::run_tool(app, argc, argv, [&] { return alight::bench::measure(options); });
 }

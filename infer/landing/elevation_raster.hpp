@@ -23,6 +23,8 @@ struct ElevationRaster {
   cv::Mat east_m;    ///< CV_32FC1, mean position of the points, from the cell's centre
   cv::Mat north_m;   ///< CV_32FC1, likewise
   cv::Mat known;     ///< CV_8UC1, 255 where at least one point fell
+  cv::Mat
+      column_seen{};  ///< CV_8UC1, 255 where the air over the cell is in view (columns_in_view); empty: not asked
 
   bool empty() const { return known.empty(); }
   cv::Size size() const { return known.size(); }

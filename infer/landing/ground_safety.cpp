@@ -28,8 +28,8 @@ cv::Mat lowest_nearby(const ElevationRaster& raster, int reach) {
 
 /// Takes out patches of flat ground most of whose border falls away. A border cell counts where the ground beyond it is
 /// known: at the edge of the view nobody knows how the ground goes on.
-void remove_platforms(const ElevationRaster& raster, const GroundShape& shape,
-                      const PlaneFitConfig& plane_fit, const GroundSafetyConfig& config, cv::Mat& safe) {
+void remove_platforms(const ElevationRaster& raster, const PlaneFitConfig& plane_fit,
+                      const GroundSafetyConfig& config, cv::Mat& safe) {
   struct Border {
     int seen = 0;
     int falling = 0;
@@ -41,26 +41,25 @@ void remove_platforms(const ElevationRaster& raster, const GroundShape& shape,
   constexpr double kParapet_m = 1.0;
   const int reach = cells(plane_fit.radius_m + kParapet_m, raster.cell_m);
   const cv::Mat lowest_m = lowest_nearby(raster, reach);
+  cv::Mat all_known;  // within reach: behind an edge lies what the edge hides
+  cv::erode(raster.known, all_known, cv::Mat::ones(2 * reach + 1, 2 * reach + 1, CV_8UC1), {-1, -1}, 1,
+            cv::BORDER_CONSTANT, cv::Scalar(0));
   std::vector<Border> borders(static_cast<std::size_t>(count));
   for (int row = 1; row + 1 < safe.rows; ++row) {
     const int* label = labels.ptr<int>(row);
     for (int column = 1; column + 1 < safe.cols; ++column) {
       if (label[column] == 0) continue;
       bool border = false;
-      bool open = false;  // towards the unknown
-      for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
-        const cv::Point next = cv::Point(column, row) + step;
-        if (safe.at<std::uint8_t>(next) != 0) continue;
-        border = true;
-        open = open || shape.known.at<std::uint8_t>(next) == 0;
-      }
+      for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)})
+        border = border || safe.at<std::uint8_t>(cv::Point(column, row) + step) == 0;
       if (!border) continue;
       Border& b = borders[static_cast<std::size_t>(label[column])];
       const double drop_m =
           static_cast<double>(raster.mean_m.at<float>(row, column) - lowest_m.at<float>(row, column));
       const bool falling = drop_m > config.platform_height_m;
       b.falling += falling ? 1 : 0;
-      b.seen += falling || !open ? 1 : 0;  // a drop that is seen counts even beside the unknown
+      // A drop that is seen counts even beside the unknown.
+      b.seen += falling || all_known.at<std::uint8_t>(row, column) != 0 ? 1 : 0;
     }
   }
   for (int row = 0; row < safe.rows; ++row) {
@@ -100,12 +99,13 @@ GroundMap judge_ground(ElevationRaster raster, const cv::Mat& hazards, const Pla
   ground.shape = fit_planes(ground.raster, plane_fit);
   cv::Mat flat = (ground.shape.gradient < std::tan(max_slope_rad)) &
                  (ground.shape.residual_m < plane_fit.max_residual_m) & ground.shape.known;
-  if (safety.platform_height_m > 0) remove_platforms(ground.raster, ground.shape, plane_fit, safety, flat);
+  if (safety.platform_height_m > 0) remove_platforms(ground.raster, plane_fit, safety, flat);
   cv::Mat hazard = ground.shape.known & ~flat;
   if (!hazards.empty()) hazard |= hazards;
   const int guard = cells(safety.guard_m, ground.raster.cell_m);
   if (guard > 0) cv::dilate(hazard, hazard, disc(guard), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   ground.safe = flat & ~hazard;
+  if (!ground.raster.column_seen.empty()) ground.safe &= ground.raster.column_seen;
   ground.radius_m = free_radius_m(ground.safe, ground.raster.cell_m);
   return ground;
 }

@@ -36,4 +36,25 @@ cv::Mat ground_beneath(const cv::Mat& level_depth_m, const cv::Mat& obstacles,
   return beneath;
 }
 
+cv::Mat columns_in_view(const ElevationRaster& raster, const PinholeIntrinsics& intrinsics,
+                        const Eigen::Isometry3d& T_world_camera, double column_m) {
+  cv::Mat seen = cv::Mat::zeros(raster.size(), CV_8UC1);
+  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
+  for (int row = 0; row < seen.rows; ++row) {
+    for (int column = 0; column < seen.cols; ++column) {
+      if (raster.known.at<std::uint8_t>(row, column) == 0) continue;
+      const Eigen::Vector2d centre_m = raster.centre_m(column, row);
+      // The foot is in view; a column is straight, so is its image: with its top all of it is.
+      const Eigen::Vector3d top =
+          T_camera_world *
+          Eigen::Vector3d(centre_m.x(), centre_m.y(),
+                          static_cast<double>(raster.mean_m.at<float>(row, column)) + column_m);
+      if (top.z() <= 0) continue;
+      const Eigen::Vector2d px = intrinsics.project(top);
+      if (intrinsics.contains(px.x(), px.y())) seen.at<std::uint8_t>(row, column) = 255;
+    }
+  }
+  return seen;
+}
+
 }  // namespace alight

@@ -13,6 +13,7 @@
 #include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
 #include "infer/landing/derivative_safety.hpp"
+#include "infer/landing/overhang.hpp"
 
 namespace alight {
 namespace {
@@ -47,6 +48,8 @@ void bind(Binder& b, SiteSelectionConfig& c) {
   b.field("max_slope_deg", c.max_slope_deg, "steepest safe ground", between(0.1, 60));
   b.section("plane_fit", c.plane_fit, "plane_fit: over which ground a plane is laid");
   b.section("ground", c.ground, "plane_fit: what else makes ground unsafe");
+  b.field("column_m", c.column_m, "plane_fit: air over safe ground that has to be in view; 0: none",
+          between(0, 50));
   b.section("terrain", c.terrain, "derivatives: how the shape of the ground is measured");
   b.field("max_roughness_deg", c.max_roughness_deg, "derivatives: largest safe change of slope",
           between(0.1, 60));
@@ -95,8 +98,11 @@ ElevationRaster SiteSelector::raster_of(const cv::Mat& depth_m,
   const double mean_m = cv::mean(depth_m, depth_m > 0)[0];
   const double cell_m = std::max(config_.plane_fit.cell_m,
                                  kPixelsPerCell * mean_m / std::min(intrinsics_.fx_px, intrinsics_.fy_px));
-  return rasterize(depth_m, intrinsics_, T_world_camera, cell_m, config_.plane_fit.reach_m,
-                   config_.plane_fit.noise_m);
+  ElevationRaster raster = rasterize(depth_m, intrinsics_, T_world_camera, cell_m, config_.plane_fit.reach_m,
+                                     config_.plane_fit.noise_m);
+  if (config_.column_m > 0 && !raster.empty())
+    raster.column_seen = columns_in_view(raster, intrinsics_, T_world_camera, config_.column_m);
+  return raster;
 }
 
 SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera,

@@ -29,6 +29,9 @@ struct SiteSelectionConfig {
   // plane_fit
   PlaneFitConfig plane_fit;
   GroundSafetyConfig ground;
+  /// Air over safe ground that the image has to show: what hangs there unseen ends a descent. 0: none has to. With h
+  /// over the ground only the middle of the image, (h - column_m) / h of its side, can be safe then.
+  double column_m = 0;
   // derivatives
   TerrainConfig terrain;
   double max_roughness_deg = 10;

@@ -1,6 +1,8 @@
 #include "infer/landing/plane_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -198,6 +200,55 @@ TEST(PlaneFitSelection, RoofsAreNotGround) {
   EXPECT_EQ(warned.safe.at<std::uint8_t>(176, 300), 255);
   config.ground.platform_height_m = 0;
   EXPECT_EQ(SiteSelector(config, k).select(depth, camera_at(0, 0, 30)).safe.at<std::uint8_t>(176, 176), 255);
+}
+
+struct Box {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+};
+
+/// Depth of level ground at z = 0 with boxes on it, what they hide left out.
+cv::Mat boxes_seen(const PinholeIntrinsics& k, const Eigen::Isometry3d& T, const std::vector<Box>& boxes) {
+  cv::Mat depth = cv::Mat::zeros(k.size(), CV_32FC1);
+  for (int v = 0; v < depth.rows; ++v) {
+    for (int u = 0; u < depth.cols; ++u) {
+      const Eigen::Array3d ray = T.linear() * k.ray(u, v);
+      const Eigen::Array3d from = T.translation();
+      double z_m = -from.z() / ray.z();
+      for (const Box& box : boxes) {
+        const Eigen::Array3d a = (box.low.array() - from) / ray;
+        const Eigen::Array3d b = (box.high.array() - from) / ray;
+        const double enter = a.min(b).maxCoeff();
+        if (enter < a.max(b).minCoeff()) z_m = std::min(z_m, enter);
+      }
+      depth.at<float>(v, u) = static_cast<float>(z_m);
+    }
+  }
+  return depth;
+}
+
+TEST(PlaneFitSelection, ARoofWhoseParapetsHideWhatIsBehindThemIsNoGround) {
+  const PinholeIntrinsics k = camera_of(352, 352);
+  // 8 m high, parapets of 0.4 m, something on top, the eastern end outside the image. From 20 m up only the ground
+  // behind the western edge is seen within a few metres.
+  const std::vector<Box> house = {{{-0.8, -3.8, 0}, {6, 3.8, 8}},
+                                  {{-0.8, -3.8, 8}, {-0.4, 3.8, 8.4}},
+                                  {{-0.8, -3.8, 8}, {6, -3.4, 8.4}},
+                                  {{-0.8, 3.4, 8}, {6, 3.8, 8.4}},
+                                  {{1.5, -0.9, 8}, {2.7, 0.3, 9}}};
+  const Eigen::Isometry3d T = camera_at(0, 0, 20);
+  for (const double noise_m : {0.0, 0.02}) {
+    SiteSelectionConfig config = planes();
+    config.plane_fit.noise_m = noise_m;
+    const auto safe_on_roof = [&] {
+      const cv::Mat depth = boxes_seen(k, T, house);
+      const cv::Mat safe = SiteSelector(config, k).select(depth, T).safe;
+      return cv::countNonZero(safe & (depth < 12.5));
+    };
+    EXPECT_EQ(safe_on_roof(), 0) << noise_m;
+    config.ground.platform_height_m = 0;
+    EXPECT_GT(safe_on_roof(), 500) << noise_m;
+  }
 }
 
 TEST(PlaneFitSelection, SitesAreSeparateAndTheBestScoreComesFirst) {

@@ -16,6 +16,7 @@ constexpr double kNoise_m = 0.02;  // of the Mid-40's ranges
 
 struct Scores {
   MaskScore planes;
+  MaskScore columns;       // the air over safe ground has to be in view
   MaskScore noisy_planes;  // the same depth with kNoise_m, and the method told of it
   MaskScore derivatives;
 };
@@ -29,6 +30,9 @@ Scores measure() {
   const SiteSelector noisy_planes(config, k);
   config.plane_fit.noise_m = 0;
   const SiteSelector planes(config, k);
+  config.column_m = 5.5;
+  const SiteSelector columns(config, k);
+  config.column_m = 0;
   config.method = LandingMethod::kDerivatives;
   const SiteSelector derivatives(config, k);
   Scores scores;
@@ -51,6 +55,8 @@ Scores measure() {
         const TruthView view = truth_view(truth, {}, selection.level_depth_m, material, k, T_world_level,
                                           config.vehicle_radius_m);
         scores.planes.add(score_mask(selection.safe, view, material));
+        scores.columns.add(
+            score_mask(columns.select(perfect.depth_m, s.T_world_camera).safe, view, material));
         const cv::Mat noisy_m = scenes::with_noise(perfect.depth_m, kNoise_m, 77);
         scores.noisy_planes.add(
             score_mask(noisy_planes.select(noisy_m, s.T_world_camera).safe, view, material));
@@ -74,6 +80,15 @@ TEST(SafeMask, AgreesWithTheTruthWhereTheImageShowsIt) {
   EXPECT_GE(scores.planes.precision_of_seen(), 0.999) << scores.planes.precision();
   EXPECT_GE(scores.planes.recall(), 0.9);
   EXPECT_GT(scores.planes.precision(), scores.derivatives.precision());
+}
+
+TEST(SafeMask, AgreesWithTheWholeTruthWhereTheAirIsInView) {
+  const Scores& scores = scored();
+  RecordProperty("precision", std::to_string(scores.columns.precision()));
+  RecordProperty("recall", std::to_string(scores.columns.recall()));
+  EXPECT_GE(scores.columns.precision(), 0.999);
+  EXPECT_GE(scores.columns.recall(), 0.85);
+  EXPECT_LT(scores.columns.wrongly_hidden_m2, 0.3 * scores.planes.wrongly_hidden_m2);
 }
 
 TEST(SafeMask, AgreesThroughTheNoiseOfALidar) {
