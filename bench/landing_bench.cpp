@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <benchmark/benchmark.h>
 
 #include "bench/scene.hpp"
@@ -41,7 +43,8 @@ BENCHMARK(rasterize_352)->Unit(benchmark::kMillisecond);
 void judge_ground_352(benchmark::State& state) {
   const ElevationRaster raster =
       rasterize(bench::ground(), bench::paper_rig().intrinsics, tilted_camera(), 0.2, 60);
-  for (auto _ : state) benchmark::DoNotOptimize(judge_ground(raster, {}, {}, {}, 0.17));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(judge_ground(raster, fit_planes(raster, {}), {}, {}, {}, 0.17));
 }
 BENCHMARK(judge_ground_352)->Unit(benchmark::kMillisecond);
 
@@ -73,6 +76,20 @@ void select_fused_352(benchmark::State& state) {
     benchmark::DoNotOptimize(fused.update(t_ns += 50'000'000, depth, depth, tilted_camera(), frame));
 }
 BENCHMARK(select_fused_352)->Unit(benchmark::kMillisecond);
+
+/// A frame's decision less the remembered obstacles (site_source: both), without the grid's update.
+void select_site_with_memory_352(benchmark::State& state) {
+  const SiteSelector selector({}, bench::paper_rig().intrinsics);
+  const cv::Mat depth = bench::ground();
+  FusedSelector fused({}, selector);
+  fused.update(50'000'000, depth, depth, tilted_camera(), selector.look(depth, tilted_camera()));
+  for (auto _ : state) {
+    SiteSelection seen = selector.look(depth, tilted_camera());
+    const cv::Mat remembered = fused.grid().obstacles(seen.ground.raster);
+    benchmark::DoNotOptimize(selector.decide(std::move(seen), remembered, tilted_camera()));
+  }
+}
+BENCHMARK(select_site_with_memory_352)->Unit(benchmark::kMillisecond);
 
 void select_site(benchmark::State& state, LandingMethod method) {
   SiteSelectionConfig config;

@@ -89,14 +89,15 @@ FrameReport SiteStage::report(SensedDepth sensed) {
   }
   const StageTimer timer(frame.depth.stages_ms, "site");
   const Eigen::Isometry3d& T_world_camera = *frame.depth.T_world_camera;
-  frame.selection = selector_.select(frame.depth.depth_m, T_world_camera);
+  SiteSelection seen = selector_.look(frame.depth.depth_m, T_world_camera);
+  cv::Mat remembered;
   if (fused_) {
-    frame.fused = fused_->update(frame.depth.t_ns, frame.depth.depth_m, frame.depth.sparse_m, T_world_camera,
-                                 *frame.selection);
+    frame.fused =
+        fused_->update(frame.depth.t_ns, frame.depth.depth_m, frame.depth.sparse_m, T_world_camera, seen);
     frame.from_fused = site_source_ == SiteSource::kFused;
-    if (site_source_ == SiteSource::kBoth && !frame.selection->ground.empty())
-      frame.selection = fused_->with_memory(*frame.selection, T_world_camera);
+    if (site_source_ == SiteSource::kBoth) remembered = fused_->grid().obstacles(seen.ground.raster);
   }
+  frame.selection = selector_.decide(std::move(seen), remembered, T_world_camera);
   frame.decision = tracker_.update(frame.depth.t_ns, frame.decisive(), T_world_camera);
   if (frame.decision.site) {
     frame.image_site =

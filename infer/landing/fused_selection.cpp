@@ -26,10 +26,4 @@ SiteSelection FusedSelector::update(std::int64_t t_ns, const cv::Mat& depth_m, c
   return selector_.judge(std::move(ground), hazards, frame.level_depth_m, T_world_camera);
 }
 
-SiteSelection FusedSelector::with_memory(const SiteSelection& frame,
-                                         const Eigen::Isometry3d& T_world_camera) const {
-  const ElevationRaster& ground = frame.ground.raster;
-  return selector_.judge(ground, grid_.obstacles(ground), frame.level_depth_m, T_world_camera);
-}
-
 }  // namespace alight

@@ -91,12 +91,13 @@ void bind(Binder& b, GroundSafetyConfig& c) {
           between(0.05, 1));
 }
 
-GroundMap judge_ground(ElevationRaster raster, const cv::Mat& hazards, const PlaneFitConfig& plane_fit,
-                       const GroundSafetyConfig& safety, double max_slope_rad) {
+GroundMap judge_ground(ElevationRaster raster, GroundShape shape, const cv::Mat& hazards,
+                       const PlaneFitConfig& plane_fit, const GroundSafetyConfig& safety,
+                       double max_slope_rad) {
   GroundMap ground;
   ground.raster = std::move(raster);
   if (ground.empty()) return ground;
-  ground.shape = fit_planes(ground.raster, plane_fit);
+  ground.shape = std::move(shape);
   cv::Mat flat = (ground.shape.gradient < std::tan(max_slope_rad)) &
                  (ground.shape.residual_m < plane_fit.max_residual_m) & ground.shape.known;
   if (safety.platform_height_m > 0) remove_platforms(ground.raster, plane_fit, safety, flat);

@@ -114,15 +114,35 @@ SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Isometry
     trusted_m = depth_m.clone();
     trusted_m.setTo(0, confidence < config_.min_confidence);
   }
+  return decide(look(trusted_m, T_world_camera), {}, T_world_camera, confidence);
+}
+
+SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Matrix3d& R_world_camera) const {
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  T_world_camera.linear() = R_world_camera;
+  return select(depth_m, T_world_camera);
+}
+
+SiteSelection SiteSelector::look(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera) const {
   SiteSelection out;
   // 2) What a camera with roll and pitch zero sees.
   out.R_level_camera = level_rotation(T_world_camera.linear());
-  out.level_depth_m = rotate_depth(trusted_m, intrinsics_, out.R_level_camera);
+  out.level_depth_m = rotate_depth(depth_m, intrinsics_, out.R_level_camera);
+  if (config_.method == LandingMethod::kPlaneFit) {
+    out.ground.raster = raster_of(depth_m, T_world_camera);
+    if (!out.ground.empty()) out.ground.shape = fit_planes(out.ground.raster, config_.plane_fit);
+  }
+  return out;
+}
+
+SiteSelection SiteSelector::decide(SiteSelection seen, const cv::Mat& hazards,
+                                   const Eigen::Isometry3d& T_world_camera, const cv::Mat& confidence) const {
+  SiteSelection out = std::move(seen);
   Eigen::Isometry3d T_world_level = T_world_camera;
   T_world_level.linear() = T_world_camera.linear() * out.R_level_camera.transpose();
   // 3) Slope and roughness. 4) Circles, in metres: over several heights the largest in pixels may be another one.
   if (config_.method == LandingMethod::kPlaneFit) {
-    decide_by_planes(raster_of(trusted_m, T_world_camera), {}, T_world_level, out);
+    decide_by_planes(hazards, T_world_level, out);
   } else {
     decide_by_derivatives(T_world_level, out);
   }
@@ -134,29 +154,25 @@ SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Isometry
   return out;
 }
 
-SiteSelection SiteSelector::select(const cv::Mat& depth_m, const Eigen::Matrix3d& R_world_camera) const {
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-  T_world_camera.linear() = R_world_camera;
-  return select(depth_m, T_world_camera);
-}
-
 SiteSelection SiteSelector::judge(ElevationRaster raster, const cv::Mat& hazards,
                                   const cv::Mat& level_depth_m,
                                   const Eigen::Isometry3d& T_world_camera) const {
   SiteSelection out;
   out.R_level_camera = level_rotation(T_world_camera.linear());
   out.level_depth_m = level_depth_m;
+  out.ground.raster = std::move(raster);
+  if (!out.ground.empty()) out.ground.shape = fit_planes(out.ground.raster, config_.plane_fit);
   Eigen::Isometry3d T_world_level = T_world_camera;
   T_world_level.linear() = T_world_camera.linear() * out.R_level_camera.transpose();
-  decide_by_planes(std::move(raster), hazards, T_world_level, out);
+  decide_by_planes(hazards, T_world_level, out);
   conclude(out);
   return out;
 }
 
-void SiteSelector::decide_by_planes(ElevationRaster raster, const cv::Mat& hazards,
-                                    const Eigen::Isometry3d& T_world_level, SiteSelection& out) const {
-  out.ground = judge_ground(std::move(raster), hazards, config_.plane_fit, config_.ground,
-                            to_radians(config_.max_slope_deg));
+void SiteSelector::decide_by_planes(const cv::Mat& hazards, const Eigen::Isometry3d& T_world_level,
+                                    SiteSelection& out) const {
+  out.ground = judge_ground(std::move(out.ground.raster), std::move(out.ground.shape), hazards,
+                            config_.plane_fit, config_.ground, to_radians(config_.max_slope_deg));
   show_ground(T_world_level, out);
   if (out.ground.empty()) return;
   out.status = SiteStatus::kNoFlatArea;

@@ -97,6 +97,15 @@ class SiteSelector {
   /// The same for a camera at the world's origin: positions in the world count from the camera.
   SiteSelection select(const cv::Mat& depth_m, const Eigen::Matrix3d& R_world_camera) const;
 
+  /// select in two steps, for who has something to say in between. First what there is to judge: the level depth and,
+  /// with plane_fit, the raster and its planes. Nothing is decided: no map, no site, kNoDepth.
+  SiteSelection look(const cv::Mat& depth_m, const Eigen::Isometry3d& T_world_camera) const;
+  /// Then the decision.
+  /// @param seen of look()
+  /// @param hazards see judge_ground; plane_fit only
+  SiteSelection decide(SiteSelection seen, const cv::Mat& hazards, const Eigen::Isometry3d& T_world_camera,
+                       const cv::Mat& confidence = {}) const;
+
   /// The decision of plane_fit on a raster that came from elsewhere (fused over frames), seen from a camera.
   /// @param hazards see judge_ground
   /// @param level_depth_m CV_32FC1, what the level camera sees now: where the maps are shown
@@ -114,8 +123,8 @@ class SiteSelector {
   const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
 
  private:
-  void decide_by_planes(ElevationRaster raster, const cv::Mat& hazards,
-                        const Eigen::Isometry3d& T_world_level, SiteSelection& out) const;
+  void decide_by_planes(const cv::Mat& hazards, const Eigen::Isometry3d& T_world_level,
+                        SiteSelection& out) const;
   void decide_by_derivatives(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const;
   void show_ground(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const;
   LandingSite site_on(const GroundMap& ground, const cv::Point& cell,

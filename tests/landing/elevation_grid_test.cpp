@@ -219,7 +219,8 @@ TEST_F(ElevationGridTest, FusedSelectionKeepsAwayFromWhatTheFrameDoesNotSee) {
   ASSERT_TRUE(remembered.largest);
   EXPECT_GT((remembered.largest->p_world.head<2>() - pole).norm(), remembered.largest->radius_m);
   // The frame's own ground, less the pole that an earlier frame saw.
-  const SiteSelection both = fused.with_memory(frame, T);
+  const SiteSelection seen = selector.look(depth_of(T, flat_), T);
+  const SiteSelection both = selector.decide(seen, fused.grid().obstacles(seen.ground.raster), T);
   ASSERT_TRUE(both.largest);
   EXPECT_GT((both.largest->p_world.head<2>() - pole).norm(), both.largest->radius_m);
   EXPECT_EQ(cv::countNonZero(both.safe & ~frame.safe), 0);
