@@ -36,15 +36,7 @@ struct Options {
   bool automatic = false;
 };
 
-void add_options(CLI::App& app, Options& options) {
-  add_config_options(app, options.config);
-  app.add_option("-l,--log", options.log, "ROS 1 bag to replay");
-  app.add_option("-o,--output", options.output, "Folder to make; must not exist");
-  app.add_option(
-      "--checkpoint", options.checkpoint,
-      "Trained network, in place of the configuration's; neither: the one that came with the program");
-  app.add_option("--landing", options.landing, "Landing configuration, in place of the section `landing`");
-  app.add_flag("--lidar-only", options.lidar_only, "No network: interpolate the LiDAR of max_accumulation_s");
+void add_benchmark_options(CLI::App& app, Options& options) {
   app.add_flag("--benchmark", options.benchmark,
                "Print median and 95th percentile of every stage, on --log or on synthetic frames");
   auto* network = app.add_flag("--benchmark-network", options.benchmark_network,
@@ -59,6 +51,10 @@ void add_options(CLI::App& app, Options& options) {
       ->needs(network);
   app.add_flag("--json", options.json, "Print --benchmark-network's figures as a line of JSON")
       ->needs(network);
+}
+
+/// What needs the log's own pace.
+void add_flight_options(CLI::App& app, Options& options) {
   auto* realtime = app.add_flag(
       "--realtime", options.pace.realtime,
       "Messages come when they came in flight; what the engine is too slow for is lost and counted");
@@ -73,6 +69,12 @@ void add_options(CLI::App& app, Options& options) {
          "--autopilot", options.autopilot,
          "Send landing sites there by MAVLink, such as udp:127.0.0.1:14550; in place of the configuration's")
       ->needs(realtime);
+  app.add_flag("--automatic", options.automatic,
+               "Begin in automatic mode; else a person flies, and no landing site is sent")
+      ->needs(realtime);
+}
+
+void add_recorder_options(CLI::App& app, Options& options) {
   auto* record =
       app.add_option("--record", options.record,
                      "Keep a crash-safe record of the flight in this folder; with --explain: read it");
@@ -81,9 +83,20 @@ void add_options(CLI::App& app, Options& options) {
                  "and draw it to "
                  "--output (PNG)")
       ->needs(record);
-  app.add_flag("--automatic", options.automatic,
-               "Begin in automatic mode; else a person flies, and no landing site is sent")
-      ->needs(realtime);
+}
+
+void add_options(CLI::App& app, Options& options) {
+  add_config_options(app, options.config);
+  app.add_option("-l,--log", options.log, "ROS 1 bag to replay");
+  app.add_option("-o,--output", options.output, "Folder to make; must not exist");
+  app.add_option(
+      "--checkpoint", options.checkpoint,
+      "Trained network, in place of the configuration's; neither: the one that came with the program");
+  app.add_option("--landing", options.landing, "Landing configuration, in place of the section `landing`");
+  app.add_flag("--lidar-only", options.lidar_only, "No network: interpolate the LiDAR of max_accumulation_s");
+  add_benchmark_options(app, options);
+  add_flight_options(app, options);
+  add_recorder_options(app, options);
   app.add_option("--repeat", options.pace.rounds, "Replay the log so many times over")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "infer/web/ground_station.hpp"
+#include "infer/web/http_server.hpp"
+#include "tests/web/reports.hpp"
+
+namespace alight::station {
+
+using Json = nlohmann::json;
+constexpr char kToken[] = "a token for tests";
+
+inline GroundStationConfig quick_config() {
+  GroundStationConfig config;
+  config.address = ":0";
+  config.token = kToken;
+  config.max_rate_hz = 100;
+  return config;
+}
+
+inline int port_of(const GroundStation& station) {
+  const std::string& url = station.url();
+  return std::stoi(url.substr(url.rfind(':') + 1));
+}
+
+/// A station on a free port of the loopback, and clients for it.
+class GroundStationTest : public testing::Test {
+ protected:
+  explicit GroundStationTest(const GroundStationConfig& config = quick_config())
+      : station_(std::make_unique<GroundStation>(config, mode_, reports::crop(), 5)),
+        port_(port_of(*station_)) {}
+
+  httplib::Client client() const {
+    httplib::Client client("127.0.0.1", port_);
+    client.set_keep_alive(true);
+    // The station's threads have the lowest priority: a busy computer lets them wait.
+    client.set_read_timeout(100);
+    client.set_connection_timeout(100);
+    return client;
+  }
+  Json state() const {
+    auto answer = client().Get("/state");
+    return answer && answer->status == 200 ? Json::parse(answer->body) : Json();
+  }
+  static httplib::Headers bearer(const std::string& token) { return {{"Authorization", "Bearer " + token}}; }
+  int post_mode(const std::string& body, const httplib::Headers& headers) const {
+    auto answer = client().Post("/mode", headers, body, "application/json");
+    return answer ? answer->status : 0;
+  }
+  /// A connection that the test writes and reads byte by byte, or not at all.
+  int connect_raw() const {
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port_));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    return socket;
+  }
+  /// Sends bytes and reads until the server closes. @returns the beginning of the answer
+  std::string exchange(const std::string& request) const {
+    const int socket = connect_raw();
+    EXPECT_GE(send(socket, request.data(), request.size(), MSG_NOSIGNAL), 0);
+    std::string answer;
+    char bytes[4096];
+    for (ssize_t count = 0; (count = recv(socket, bytes, sizeof bytes, 0)) > 0;)
+      answer.append(bytes, static_cast<std::size_t>(count));
+    close(socket);
+    return answer;
+  }
+
+  ModeSwitch mode_;
+  std::unique_ptr<GroundStation> station_;
+  int port_;
+};
+
+}  // namespace alight::station
