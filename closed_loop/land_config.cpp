@@ -22,7 +22,6 @@ void bind(Binder& b, LandFlightConfig& c) {
 LandConfig::LandConfig() {
   renderer.edge_samples = 1;
   sensors.camera.rate_hz = 10;
-  sensors.gps.drift_kind = sim::DriftKind::kSmooth;
 }
 
 void bind(Binder& b, LandConfig& c) {

@@ -18,6 +18,7 @@ struct WorldPacket {
   std::int64_t begin_ns = 0;  ///< first point
   std::int64_t end_ns = 0;    ///< last point
   double duration_s = 0;      ///< LiDAR time that it adds to an accumulation
+  double height_shift_m = 0;  ///< of its points, against other packets' (HeightRegistration)
   std::vector<WorldPoint> points;
   std::int64_t without_pose = 0;  ///< points left out because no pose brackets their time
 };

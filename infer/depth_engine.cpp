@@ -29,6 +29,8 @@ void bind(Binder& b, DepthEngineConfig& c) {
   b.field("height_px", c.height_px, "height of the centre crop", between(16, 10000));
   b.field("history_s", c.history_s, "LiDAR of the past that an image may use; 0: only what follows it",
           between(0, 60));
+  b.field("register_heights", c.register_heights,
+          "LiDAR packets are shifted in height onto the ground of those before");
   b.field("max_pose_gap_s", c.max_pose_gap_s, "poses further apart are not interpolated between",
           between(0.001, 10));
   b.field("max_wait_s", c.max_wait_s, "how late a pose or LiDAR packet may come", between(0, 10));
@@ -68,6 +70,7 @@ void DepthEngine::add(const LogMessage& message) {
 void DepthEngine::forget_lidar(const std::string& reason) {
   packets_.clear();
   accumulator_ = Accumulator(static_cast<std::size_t>(config_.max_points));
+  registration_.forget();
   for (Entry& entry : entries_) {
     if (!entry.task) continue;
     entry.task.reset();
@@ -148,6 +151,7 @@ void DepthEngine::place(const LidarPacket& packet) {
   placed_end_ns_ = world->end_ns;
   if (world->without_pose > 0) dropped_["LiDAR point without pose"] += world->without_pose;
   if (world->points.empty()) return;
+  if (config_.register_heights) world->height_shift_m = registration_.add(*world);
   accumulator_.add(world);
   for (Entry& entry : entries_) {
     const bool wanted = config_.history_s > 0 || world->end_ns > entry.t_ns;

@@ -15,6 +15,7 @@
 #include "infer/accumulator.hpp"
 #include "infer/depth_result.hpp"
 #include "infer/health/health_config.hpp"
+#include "infer/height_registration.hpp"
 #include "infer/image_task.hpp"
 
 namespace alight {
@@ -32,6 +33,9 @@ struct DepthEngineConfig {
   /// LiDAR of the recent past that an image may use, newest packets first, before it waits for new ones. 0: only LiDAR
   /// that comes after the image, as the paper does.
   double history_s = 1.0;
+  /// Packets are shifted in height onto the ground of those before, against a receiver's height that wanders within a
+  /// second. Results stay where the pose at the image's time is.
+  bool register_heights = true;
   double max_pose_gap_s = 0.1;   ///< poses further apart are not interpolated between
   double max_wait_s = 0.5;       ///< how late a pose or a LiDAR packet may come
   double lidar_timeout_s = 0.5;  ///< without a packet for so long the LiDAR counts as silent
@@ -124,6 +128,7 @@ class DepthEngine {
   FlightTrajectory poses_;
   HeightTrack heights_;
   Accumulator accumulator_;
+  HeightRegistration registration_;
   std::deque<LidarPacket> packets_;  // waiting for a pose
   std::deque<Entry> entries_;        // images without a delivered result, in order of arrival
   std::optional<std::int64_t> now_ns_;

@@ -62,7 +62,11 @@ ImageTask::ImageTask(const ImageTaskConfig& config, const RectifiedRig& rig, Dep
 
 void ImageTask::offer(WorldPacketPtr packet) {
   const StageTimer timer(result_.stages_ms, "project");
-  waiting_.push_back({points_in_image(packet->points, T_camera_world_, rig_.intrinsics, result_.t_ns,
+  // The first packet is the nearest to the image's time: its heights are those of the image's pose.
+  if (!height_shift_m_) height_shift_m_ = packet->height_shift_m;
+  const Eigen::Isometry3d T_camera_packet =
+      T_camera_world_ * Eigen::Translation3d(0, 0, *height_shift_m_ - packet->height_shift_m);
+  waiting_.push_back({points_in_image(packet->points, T_camera_packet, rig_.intrinsics, result_.t_ns,
                                       {config_.min_depth_m, config_.max_depth_m}),
                       packet->duration_s});
   add_points(waiting_.back().points, known_);

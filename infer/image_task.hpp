@@ -95,6 +95,7 @@ class ImageTask {
   std::deque<Packet> waiting_;
   SparseDepth known_;  // every point that came, fed or not: the reference of the stereo test
   SparseDepth fed_;
+  std::optional<double> height_shift_m_;  // of the packets' heights at the image's time
   int first_packets_ = 0;
   int fed_packets_ = 0;
   double last_duration_s_ = 0;

@@ -47,27 +47,32 @@ GroundFit GroundMemory::fit(const std::vector<Eigen::Vector3d>& points) const {
   fit.misfit_m = mean_off(off_m, 0);
   const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
   std::nth_element(off_m.begin(), middle, off_m.end());
-  fit.shape_misfit_m = mean_off(off_m, *middle);
+  fit.offset_m = *middle;
+  fit.shape_misfit_m = mean_off(off_m, fit.offset_m);
   return fit;
 }
 
-void GroundMemory::add(std::int64_t t_ns, const std::vector<Eigen::Vector3d>& points) {
-  packets_.push_back({t_ns, points});
-  while (to_seconds(t_ns - packets_.front().t_ns) > config_.memory_s) packets_.pop_front();
-  rebuild();
+GroundMemory::Cells GroundMemory::cells_of(const std::vector<Eigen::Vector3d>& points) const {
+  Cells cells;
+  for (const Eigen::Vector3d& p_world : points)
+    cells[cell_of(p_world)].add({1, p_world.z(), p_world.z(), p_world.z()});
+  return cells;
 }
 
-void GroundMemory::rebuild() {
+void GroundMemory::add(std::int64_t t_ns, const std::vector<Eigen::Vector3d>& points) {
+  packets_.push_back({t_ns, cells_of(points)});
+  while (to_seconds(t_ns - packets_.front().t_ns) > config_.memory_s) packets_.pop_front();
   cells_.clear();
   for (const Packet& packet : packets_) {
-    for (const Eigen::Vector3d& p_world : packet.points) {
-      Cell& cell = cells_[cell_of(p_world)];
-      cell.min_m = cell.count == 0 ? p_world.z() : std::min(cell.min_m, p_world.z());
-      cell.max_m = cell.count == 0 ? p_world.z() : std::max(cell.max_m, p_world.z());
-      cell.sum_m += p_world.z();
-      ++cell.count;
-    }
+    for (const auto& [place, cell] : packet.cells) cells_[place].add(cell);
   }
+}
+
+void GroundMemory::Cell::add(const Cell& other) {
+  min_m = count == 0 ? other.min_m : std::min(min_m, other.min_m);
+  max_m = count == 0 ? other.max_m : std::max(max_m, other.max_m);
+  sum_m += other.sum_m;
+  count += other.count;
 }
 
 void GroundMemory::clear() {

@@ -16,6 +16,7 @@ namespace alight {
 struct GroundFit {
   int cells = 0;        ///< flat cells that both saw; below LidarHealthConfig::min_cells nothing is said
   double misfit_m = 0;  ///< mean height difference there, each no more than a metre
+  double offset_m = 0;  ///< middle height difference there, positive: the echoes lie higher
   double shape_misfit_m =
       0;  ///< what is left of it where the middle difference is taken away: a drift of the height
 };
@@ -38,15 +39,17 @@ class GroundMemory {
     double min_m = 0;
     double max_m = 0;
     double sum_m = 0;
-  };
-  struct Packet {
-    std::int64_t t_ns;
-    std::vector<Eigen::Vector3d> points;
+
+    void add(const Cell& other);
   };
   using Cells = std::unordered_map<std::int64_t, Cell>;
+  struct Packet {
+    std::int64_t t_ns;
+    Cells cells;
+  };
 
   std::int64_t cell_of(const Eigen::Vector3d& p_world) const;
-  void rebuild();
+  Cells cells_of(const std::vector<Eigen::Vector3d>& points) const;
 
   LidarHealthConfig config_;
   std::deque<Packet> packets_;

@@ -15,7 +15,6 @@ sim::SimConfig flight_config() {
   sim::SimConfig config;
   config.rig = (std::filesystem::path(ALIGHT_SOURCE_DIR) / "configs" / "rigs" / "paper.yaml").string();
   config.sensors.camera.rate_hz = 10;
-  config.sensors.gps.drift_kind = sim::DriftKind::kSmooth;
   config.renderer.edge_samples = 1;
   config.recorder.truth = false;
   sim::FlightConfig& flight = config.flights.front();
