@@ -48,7 +48,7 @@ others="LiDAR lost,LiDAR half of the points,LiDAR frozen,LiDAR rain,LiDAR mirror
 others+=",LiDAR clock 2 s ahead,LiDAR clock 0.1 s behind,position jumps by 2 m,position lost,attitude lost,attitude frozen"
 others+=",autopilot clock 1 s ahead,messages mixed up by up to 0.2 s,all messages 0.4 s late"
 fly calm "${without_camera[@]}" --worlds "$worlds" --first-seed 100000
-fly failing "${without_camera[@]}" --worlds "$worlds" --first-seed 102000 --faults "$others" "${passing[@]}"
+fly failing "${without_camera[@]}" --worlds "$worlds" --first-seed 104000 --faults "$others" "${passing[@]}"
 fly coarse "${without_camera[@]}" --worlds 50 --first-seed 300000
 fly full "${with_camera[@]}" --worlds 50 --first-seed 300000
 fly cameras "${with_camera[@]}" --worlds 50 --first-seed 301100 --faults "$eyes" "${passing[@]}"
