@@ -2,8 +2,6 @@
 
 #include <memory>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <nlohmann/json.hpp>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -12,6 +10,7 @@
 
 #include "infer/web/ground_station.hpp"
 #include "infer/web/http_server.hpp"
+#include "tests/web/connection.hpp"
 #include "tests/web/reports.hpp"
 
 namespace alight::station {
@@ -56,16 +55,7 @@ class GroundStationTest : public testing::Test {
     auto answer = client().Post("/mode", headers, body, "application/json");
     return answer ? answer->status : 0;
   }
-  /// A connection that the test writes and reads byte by byte, or not at all.
-  int connect_raw() const {
-    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port_));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    return socket;
-  }
+  int connect_raw() const { return connect_to(port_); }
   /// Sends bytes and reads until the server closes. @returns the beginning of the answer
   std::string exchange(const std::string& request) const {
     const int socket = connect_raw();
