@@ -68,8 +68,7 @@ void run_world(const sim::WorldConfig& place, const Options& options, const Site
       const std::vector<cv::Mat> safe =
           masks(planes, columns, derivatives, perfect.depth_m, s.T_world_camera, level_depth_m);
       const Eigen::Matrix3d R_level_camera = level_rotation(s.T_world_camera.linear());
-      Eigen::Isometry3d T_world_level = s.T_world_camera;
-      T_world_level.linear() = s.T_world_camera.linear() * R_level_camera.transpose();
+      const Eigen::Isometry3d T_world_level = level_pose(s.T_world_camera, R_level_camera);
       const cv::Mat material = level_material(perfect.material, k, R_level_camera);
       const TruthView view =
           truth_view(truth, truth_config, level_depth_m, material, k, T_world_level, clearance_m);

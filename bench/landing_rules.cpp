@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/frames.hpp"
+#include "geometry/reprojection.hpp"
 #include "infer/landing/elevation_raster.hpp"
 
 namespace alight::bench {
@@ -15,8 +16,7 @@ namespace {
 cv::Mat shown(const cv::Mat& cells, const ElevationRaster& raster, const cv::Mat& level_depth_m,
               const PinholeIntrinsics& k, const Eigen::Isometry3d& T_world_camera,
               const Eigen::Matrix3d& R_level_camera) {
-  Eigen::Isometry3d T_world_level = T_world_camera;
-  T_world_level.linear() = T_world_camera.linear() * R_level_camera.transpose();
+  const Eigen::Isometry3d T_world_level = level_pose(T_world_camera, R_level_camera);
   cv::Mat mask = cv::Mat::zeros(level_depth_m.size(), CV_8UC1);
   for (int v = 0; v < mask.rows; ++v) {
     for (int u = 0; u < mask.cols; ++u) {

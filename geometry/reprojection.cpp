@@ -105,4 +105,10 @@ Eigen::Matrix3d level_rotation(const Eigen::Matrix3d& R_world_camera) {
   return R_world_level.transpose() * R_world_camera;
 }
 
+Eigen::Isometry3d level_pose(const Eigen::Isometry3d& T_world_camera, const Eigen::Matrix3d& R_level_camera) {
+  Eigen::Isometry3d T_world_level = T_world_camera;
+  T_world_level.linear() = T_world_camera.linear() * R_level_camera.transpose();
+  return T_world_level;
+}
+
 }  // namespace alight

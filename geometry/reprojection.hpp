@@ -30,8 +30,10 @@ SampledView sample_view(const cv::Mat& image_source, const PinholeIntrinsics& in
 cv::Mat rotate_depth(const cv::Mat& depth_source_m, const PinholeIntrinsics& intrinsics,
                      const Eigen::Matrix3d& R_target_source);
 
-/// The level twin of a down-looking camera: optical axis along world down, yaw kept. Multiply
-/// T_world_camera's rotation by the result's transpose to get the virtual camera. @returns R_level_camera
+/// The level twin of a down-looking camera: optical axis along world down, yaw kept. @returns R_level_camera
 Eigen::Matrix3d level_rotation(const Eigen::Matrix3d& R_world_camera);
+
+/// Where that twin is: in the camera's place, turned level. @returns T_world_level
+Eigen::Isometry3d level_pose(const Eigen::Isometry3d& T_world_camera, const Eigen::Matrix3d& R_level_camera);
 
 }  // namespace alight

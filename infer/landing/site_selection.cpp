@@ -138,8 +138,7 @@ SiteSelection SiteSelector::look(const cv::Mat& depth_m, const Eigen::Isometry3d
 SiteSelection SiteSelector::decide(SiteSelection seen, const cv::Mat& hazards,
                                    const Eigen::Isometry3d& T_world_camera, const cv::Mat& confidence) const {
   SiteSelection out = std::move(seen);
-  Eigen::Isometry3d T_world_level = T_world_camera;
-  T_world_level.linear() = T_world_camera.linear() * out.R_level_camera.transpose();
+  const Eigen::Isometry3d T_world_level = level_pose(T_world_camera, out.R_level_camera);
   // 3) Slope and roughness. 4) Circles, in metres: over several heights the largest in pixels may be another one.
   if (config_.method == LandingMethod::kPlaneFit) {
     decide_by_planes(hazards, T_world_level, out);
@@ -162,8 +161,7 @@ SiteSelection SiteSelector::judge(ElevationRaster raster, const cv::Mat& hazards
   out.level_depth_m = level_depth_m;
   out.ground.raster = std::move(raster);
   if (!out.ground.empty()) out.ground.shape = fit_planes(out.ground.raster, config_.plane_fit);
-  Eigen::Isometry3d T_world_level = T_world_camera;
-  T_world_level.linear() = T_world_camera.linear() * out.R_level_camera.transpose();
+  const Eigen::Isometry3d T_world_level = level_pose(T_world_camera, out.R_level_camera);
   decide_by_planes(hazards, T_world_level, out);
   conclude(out);
   return out;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/frames.hpp"
+#include "geometry/reprojection.hpp"
 
 namespace alight {
 
@@ -57,8 +58,7 @@ SiteDecision SiteTracker::conclude(std::int64_t t_ns, std::optional<TrackedSite>
 SiteDecision SiteTracker::update(std::int64_t t_ns, const SiteSelection& selection,
                                  const Eigen::Isometry3d& T_world_camera) {
   advance(t_ns);
-  Eigen::Isometry3d T_world_level = T_world_camera;
-  T_world_level.linear() = T_world_camera.linear() * selection.R_level_camera.transpose();
+  const Eigen::Isometry3d T_world_level = level_pose(T_world_camera, selection.R_level_camera);
   std::optional<TrackedSite> now = keep(selection, T_world_level);
   if (!now && selection.found()) {
     // The best one in view: only there can it be confirmed.

@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/reprojection.hpp"
+
 namespace alight {
 namespace {
 
@@ -77,8 +79,7 @@ SiteCheck check_site(const SiteSelector& selector, const SiteSelection& selectio
                      const SiteCheckRule& rule) {
   SiteCheck check;
   check.p_world = p_world;
-  Eigen::Isometry3d T_world_level = T_world_camera;
-  T_world_level.linear() = T_world_camera.linear() * selection.R_level_camera.transpose();
+  const Eigen::Isometry3d T_world_level = level_pose(T_world_camera, selection.R_level_camera);
   const Eigen::Vector3d p_level = T_world_level.inverse() * p_world;
   if (p_level.z() <= 0 || selection.safe.empty()) return check;
   const PinholeIntrinsics& camera = selector.intrinsics();

@@ -97,8 +97,12 @@ TEST_P(LevelView, LevelGroundHasConstantDepthWhateverTheTilt) {
   const cv::Mat tilted =
       plane_depth(kCamera, R_world_camera.transpose() * -Eigen::Vector3d::UnitZ(), height_m);
   const Eigen::Matrix3d R_level_camera = level_rotation(R_world_camera);
-  const Eigen::Matrix3d R_world_level = R_world_camera * R_level_camera.transpose();
-  EXPECT_LT((R_world_level.col(2) + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  Eigen::Isometry3d T_world_camera(R_world_camera);
+  T_world_camera.pretranslate(Eigen::Vector3d(3, -5, height_m));
+  const Eigen::Isometry3d T_world_level = level_pose(T_world_camera, R_level_camera);
+  EXPECT_LT((T_world_level.linear().col(2) + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  const Eigen::Vector3d p_camera(1, -2, 9);  // one point of the world, whichever of the two looks
+  EXPECT_LT((T_world_level * (R_level_camera * p_camera) - T_world_camera * p_camera).norm(), 1e-12);
   const cv::Mat level = rotate_depth(tilted, kCamera, R_level_camera);
   double max_error = 0;
   for (int v = 0; v < level.rows; ++v) {

@@ -49,8 +49,7 @@ Scores measure() {
       for (const Station& s : stations(world, truth, height_m, 2, 15, 9101)) {
         const PerfectDepth perfect = perfect_depth(renderer, k, s.T_world_camera);
         const SiteSelection selection = planes.select(perfect.depth_m, s.T_world_camera);
-        Eigen::Isometry3d T_world_level = s.T_world_camera;
-        T_world_level.linear() = s.T_world_camera.linear() * selection.R_level_camera.transpose();
+        const Eigen::Isometry3d T_world_level = level_pose(s.T_world_camera, selection.R_level_camera);
         const cv::Mat material = level_material(perfect.material, k, selection.R_level_camera);
         const TruthView view = truth_view(truth, {}, selection.level_depth_m, material, k, T_world_level,
                                           config.vehicle_radius_m);
