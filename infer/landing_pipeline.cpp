@@ -92,8 +92,10 @@ FrameReport SiteStage::report(SensedDepth sensed) {
   SiteSelection seen = selector_.look(frame.depth.depth_m, T_world_camera);
   cv::Mat remembered;
   if (fused_) {
-    frame.fused =
-        fused_->update(frame.depth.t_ns, frame.depth.depth_m, frame.depth.sparse_m, T_world_camera, seen);
+    // What a network alone shows is hazard enough in its own frame; where the memory decides alone, it has to keep it.
+    const bool vouched = frame.depth.source != DepthSource::kFallback && site_source_ != SiteSource::kFused;
+    frame.fused = fused_->update(frame.depth.t_ns, frame.depth.depth_m, frame.depth.sparse_m, T_world_camera,
+                                 seen, vouched);
     frame.from_fused = site_source_ == SiteSource::kFused;
     if (site_source_ == SiteSource::kBoth) remembered = fused_->grid().obstacles(seen.ground.raster);
   }

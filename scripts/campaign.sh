@@ -51,4 +51,4 @@ fly calm "${without_camera[@]}" --worlds "$worlds" --first-seed 100000
 fly failing "${without_camera[@]}" --worlds "$worlds" --first-seed 104000 --faults "$others" "${passing[@]}"
 fly coarse "${without_camera[@]}" --worlds 50 --first-seed 300000
 fly full "${with_camera[@]}" --worlds 50 --first-seed 300000
-fly cameras "${with_camera[@]}" --worlds 50 --first-seed 301100 --faults "$eyes" "${passing[@]}"
+fly cameras "${with_camera[@]}" --worlds 50 --first-seed 302100 --faults "$eyes" "${passing[@]}"

@@ -102,18 +102,28 @@ std::optional<double> ElevationGrid::offset_to(const ElevationRaster& raster) co
   return static_cast<double>(*middle);
 }
 
-void ElevationGrid::merge(std::int64_t t_ns, float mean_m, float top_m, float bottom_m, bool obstacle,
-                          ElevationCell& cell) const {
-  const bool moved = cell.count > 0 && std::abs(mean_m - cell.mean_m) > static_cast<float>(config_.moved_m);
+struct ElevationGrid::Sight {
+  float mean_m;
+  float top_m;
+  float bottom_m;
+  float measured_m;  // mean of the LiDAR returns; NaN, with which no comparison is true, where there is none
+  bool obstacle;     // something rises or falls here
+  bool clear;        // nothing does
+};
+
+void ElevationGrid::merge(std::int64_t t_ns, const Sight& sight, ElevationCell& cell) const {
+  const auto moved_m = static_cast<float>(config_.moved_m);
+  const bool moved = cell.count > 0 && std::abs(sight.mean_m - cell.mean_m) > moved_m &&
+                     std::abs(sight.measured_m - cell.mean_m) > moved_m;
   const bool old_enough = to_seconds(t_ns - cell.obstacle_ns) > config_.forget_after_s;
-  if (cell.has_obstacle() && !obstacle && old_enough) {
+  if (cell.has_obstacle() && sight.clear && old_enough) {
     cell.top_m = -std::numeric_limits<float>::infinity();
     cell.bottom_m = std::numeric_limits<float>::infinity();
     if (moved) cell.count = 0;  // what stood here is gone: the ground is what is seen now
-  } else if (obstacle || moved) {
-    cell.top_m = std::max({cell.top_m, top_m, moved ? cell.mean_m : top_m});
-    cell.bottom_m = std::min({cell.bottom_m, bottom_m, moved ? cell.mean_m : bottom_m});
-    if (obstacle || cell.obstacle_ns == 0) cell.obstacle_ns = t_ns;
+  } else if (sight.obstacle || moved) {
+    cell.top_m = std::max({cell.top_m, sight.top_m, moved ? cell.mean_m : sight.top_m});
+    cell.bottom_m = std::min({cell.bottom_m, sight.bottom_m, moved ? cell.mean_m : sight.bottom_m});
+    if (sight.obstacle || cell.obstacle_ns == 0) cell.obstacle_ns = t_ns;
   }
   if (cell.count == 0) cell.squares_m2 = 0;
   const auto limit = static_cast<float>(config_.max_count);
@@ -122,14 +132,32 @@ void ElevationGrid::merge(std::int64_t t_ns, float mean_m, float top_m, float bo
     cell.count = limit - 1;
   }
   cell.count += 1;
-  const float delta_m = mean_m - cell.mean_m;  // Welford; at count 1 the mean is the frame's
-  cell.mean_m = cell.count > 1 ? cell.mean_m + delta_m / cell.count : mean_m;
-  if (cell.count > 1) cell.squares_m2 += delta_m * (mean_m - cell.mean_m);
+  const float delta_m = sight.mean_m - cell.mean_m;  // Welford; at count 1 the mean is the frame's
+  cell.mean_m = cell.count > 1 ? cell.mean_m + delta_m / cell.count : sight.mean_m;
+  if (cell.count > 1) cell.squares_m2 += delta_m * (sight.mean_m - cell.mean_m);
   cell.seen_ns = t_ns;
 }
 
+/// Holds what a predicted map shows in a cell against the returns there.
+void ElevationGrid::vouch(const LidarReturns& returns, std::int64_t c, std::int64_t r, float ground_m,
+                          Sight& sight) const {
+  int column = 0;
+  int row = 0;
+  if (!returns.hit(c, r, column, row)) {
+    sight.measured_m = std::numeric_limits<float>::quiet_NaN();
+    sight.obstacle = sight.clear = false;
+    return;
+  }
+  const auto limit = static_cast<float>(config_.obstacle_m);
+  const bool stands_out = returns.top_m.at<float>(row, column) - ground_m > limit ||
+                          ground_m - returns.bottom_m.at<float>(row, column) > limit;
+  sight.measured_m = returns.mean_m.at<float>(row, column) - static_cast<float>(offset_m_);
+  sight.obstacle = sight.obstacle && stands_out;
+  sight.clear = sight.clear && !stands_out;
+}
+
 void ElevationGrid::add(std::int64_t t_ns, const ElevationRaster& raster, const GroundShape& shape,
-                        const Eigen::Vector3d& p_world_camera) {
+                        const Eigen::Vector3d& p_world_camera, const LidarReturns* predicted_over) {
   if (t_ns < last_ns_) throw std::invalid_argument("ElevationGrid: frames must come in time order");
   last_ns_ = t_ns;
   if (raster.empty()) return;
@@ -154,39 +182,42 @@ void ElevationGrid::add(std::int64_t t_ns, const ElevationRaster& raster, const 
       const std::int64_t c = raster.first_column + column;
       const std::int64_t r = raster.first_row + row;
       if (!inside(c, r)) continue;
+      const float centre_m = shape.centre_m.at<float>(row, column);
       const float top_m = raster.top_m.at<float>(row, column);
       const float bottom_m = raster.bottom_m.at<float>(row, column);
       const bool has_plane = shape.known.at<std::uint8_t>(row, column) != 0;
-      const bool obstacle =
+      const bool seen =
           has_plane ? shape.deviation_m.at<float>(row, column) > limit : top_m - bottom_m > 2 * limit;
-      merge(t_ns, shape.centre_m.at<float>(row, column) - offset, top_m - offset, bottom_m - offset, obstacle,
-            at(c, r));
+      Sight sight{centre_m - offset, top_m - offset, bottom_m - offset, centre_m - offset, seen, !seen};
+      if (predicted_over != nullptr) {
+        const float ground_m = has_plane ? shape.plane_m.at<float>(row, column) : centre_m;
+        vouch(*predicted_over, c, r, ground_m, sight);
+      }
+      merge(t_ns, sight, at(c, r));
     }
   }
 }
 
-void ElevationGrid::add_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& intrinsics,
-                                const Eigen::Isometry3d& T_world_camera) {
-  if (sparse_m.type() != CV_32FC1 || sparse_m.size() != intrinsics.size())
-    throw std::invalid_argument("ElevationGrid: returns must be CV_32FC1 of the camera's size");
+LidarReturns ElevationGrid::returns_of(const cv::Mat& sparse_m, const PinholeIntrinsics& intrinsics,
+                                       const Eigen::Isometry3d& T_world_camera) const {
+  return lidar_returns(sparse_m, intrinsics, T_world_camera, config_.cell_m, config_.size_m,
+                       config_.lidar_half_fov_deg);
+}
+
+void ElevationGrid::add_returns(const LidarReturns& returns, const Eigen::Isometry3d& T_world_camera) {
   if (config_.min_expected_returns <= 0 || !started_) return;
-  const double limit = std::tan(to_radians(config_.lidar_half_fov_deg));
-  double count = 0;
-  for (int v = 0; v < sparse_m.rows; ++v) {
-    for (int u = 0; u < sparse_m.cols; ++u) {
-      const double z_m = static_cast<double>(sparse_m.at<float>(v, u));
-      if (!(z_m > 0)) continue;
-      const Eigen::Vector3d ray = intrinsics.ray(u, v);
-      count += ray.head<2>().norm() < limit ? 1 : 0;
-      const Eigen::Vector3d p = T_world_camera * Eigen::Vector3d(ray * z_m);
-      const auto column = static_cast<std::int64_t>(std::floor(p.x() / config_.cell_m));
-      const auto row = static_cast<std::int64_t>(std::floor(p.y() / config_.cell_m));
-      if (inside(column, row)) at(column, row).returns += 1;
+  for (int row = 0; row < returns.count.rows; ++row) {
+    for (int column = 0; column < returns.count.cols; ++column) {
+      const std::int64_t c = returns.first_column + column;
+      const std::int64_t r = returns.first_row + row;
+      if (inside(c, r)) at(c, r).returns += returns.count.at<float>(row, column);
     }
   }
-  if (count == 0) return;
+  if (returns.within_fov == 0) return;
+  const double limit = std::tan(to_radians(config_.lidar_half_fov_deg));
   // Returns are spread evenly over the field of view: a cell gets its share of the area at its depth.
-  const double share = count * config_.cell_m * config_.cell_m / (3.141592653589793 * limit * limit);
+  const double share =
+      returns.within_fov * config_.cell_m * config_.cell_m / (3.141592653589793 * limit * limit);
   const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
   for (std::int64_t r = first_row_; r < first_row_ + side_; ++r) {
     for (std::int64_t c = first_column_; c < first_column_ + side_; ++c) {

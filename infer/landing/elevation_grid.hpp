@@ -10,6 +10,7 @@
 
 #include "configs/config_reader.hpp"
 #include "infer/landing/elevation_raster.hpp"
+#include "infer/landing/lidar_returns.hpp"
 #include "infer/landing/plane_fit.hpp"
 
 namespace alight {
@@ -19,7 +20,7 @@ struct ElevationGridConfig {
   double cell_m = 0.2;
   double size_m = 80;  ///< side of the window that moves with the vehicle; ground that leaves it is forgotten
   /// Something that rises or falls farther from a frame's plane is an obstacle, and one sight of it is enough: it keeps
-  /// its height whatever the mean becomes.
+  /// its height whatever the mean becomes. In a predicted map only where a LiDAR return says so, too.
   double obstacle_m = 0.15;
   /// A frame whose ground differs by more from the remembered one has seen something come or go; both heights are kept.
   double moved_m = 0.3;
@@ -61,14 +62,19 @@ class ElevationGrid {
 
   /// Adds a frame. Frames must come in time order.
   /// @param raster cells of config.cell_m. @param shape its planes
+  /// @param predicted_over of a predicted map, the LiDAR points in it: what a network alone imagines would be
+  /// remembered as firmly as what was measured, so without a point a cell's obstacles stay as they were. Null for a
+  /// measured map.
   /// @throws std::invalid_argument
   void add(std::int64_t t_ns, const ElevationRaster& raster, const GroundShape& shape,
-           const Eigen::Vector3d& p_world_camera);
+           const Eigen::Vector3d& p_world_camera, const LidarReturns* predicted_over = nullptr);
 
-  /// Counts the LiDAR returns of a frame, and those that were due on the ground that is known.
-  /// @param sparse_m CV_32FC1 plane depth of the returns, 0 = none
-  void add_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& intrinsics,
-                   const Eigen::Isometry3d& T_world_camera);
+  /// Counts the LiDAR returns of the frame added last, and those that were due on the ground that it knows.
+  void add_returns(const LidarReturns& returns, const Eigen::Isometry3d& T_world_camera);
+
+  /// A frame's LiDAR points in cells of this grid. @param sparse_m CV_32FC1 plane depth of the points, 0 = none
+  LidarReturns returns_of(const cv::Mat& sparse_m, const PinholeIntrinsics& intrinsics,
+                          const Eigen::Isometry3d& T_world_camera) const;
 
   /// The remembered ground as a raster that planes can be fitted to; in the heights of the latest frame's pose.
   ElevationRaster raster() const;
@@ -88,10 +94,12 @@ class ElevationGrid {
   std::size_t bytes() const { return cells_.size() * sizeof(ElevationCell); }
 
  private:
+  struct Sight;  ///< what one frame says of a cell
   void recentre(const Eigen::Vector3d& p_world_camera);
   std::optional<double> offset_to(const ElevationRaster& raster) const;
-  void merge(std::int64_t t_ns, float mean_m, float top_m, float bottom_m, bool obstacle,
-             ElevationCell& cell) const;
+  void merge(std::int64_t t_ns, const Sight& sight, ElevationCell& cell) const;
+  void vouch(const LidarReturns& returns, std::int64_t column, std::int64_t row, float ground_m,
+             Sight& sight) const;
   bool inside(std::int64_t column, std::int64_t row) const;
   ElevationCell& at(std::int64_t column, std::int64_t row);
   const ElevationCell& at(std::int64_t column, std::int64_t row) const;

@@ -17,8 +17,10 @@ class FusedSelector {
   /// @param depth_m CV_32FC1 plane depth, 0 = unknown
   /// @param sparse_m CV_32FC1, the LiDAR returns of the frame, 0 = none; empty: not known
   /// @param frame of SiteSelector::look or select on the same depth, whose work is used again
+  /// @param vouched obstacles are remembered only where returns vouch for them, as ElevationGrid::add does for a map that
+  /// a network predicted
   SiteSelection update(std::int64_t t_ns, const cv::Mat& depth_m, const cv::Mat& sparse_m,
-                       const Eigen::Isometry3d& T_world_camera, const SiteSelection& frame);
+                       const Eigen::Isometry3d& T_world_camera, const SiteSelection& frame, bool vouched);
 
   const ElevationGrid& grid() const { return grid_; }
 

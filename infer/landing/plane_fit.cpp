@@ -125,7 +125,8 @@ void bind(Binder& b, PlaneFitConfig& c) {
 GroundShape fit_planes(const ElevationRaster& raster, const PlaneFitConfig& config) {
   const cv::Size size = raster.size();
   GroundShape shape{cv::Mat::zeros(size, CV_32FC1), cv::Mat::zeros(size, CV_32FC1),
-                    cv::Mat::zeros(size, CV_32FC1), raster.mean_m.clone(), cv::Mat::zeros(size, CV_8UC1)};
+                    cv::Mat::zeros(size, CV_32FC1), cv::Mat::zeros(size, CV_32FC1),
+                    raster.mean_m.clone(),          cv::Mat::zeros(size, CV_8UC1)};
   const double radius_m = std::max(config.radius_m, raster.cell_m);
   const int reach = static_cast<int>(std::floor(radius_m / raster.cell_m + 1e-9));
   if (size.width <= 2 * reach || size.height <= 2 * reach) return shape;
@@ -150,6 +151,8 @@ GroundShape fit_planes(const ElevationRaster& raster, const PlaneFitConfig& conf
               shape.residual_m.ptr<float>(row), shape.deviation_m.ptr<float>(row));
   }
   cv::magnitude(planes.east, planes.north, shape.gradient);
+  shape.plane_m = planes.mean_m + level_m;
+  shape.plane_m.setTo(0, unknown);
   shape.centre_m = centre_m + level_m;
   shape.gradient.setTo(0, unknown);
   shape.residual_m.setTo(0, unknown);

@@ -25,6 +25,7 @@ struct GroundShape {
   cv::Mat gradient;     ///< CV_32FC1, tangent of the plane's slope
   cv::Mat residual_m;   ///< CV_32FC1, largest vertical distance of anything on the disc to the plane
   cv::Mat deviation_m;  ///< CV_32FC1, the same of what is in the cell alone: an obstacle stands here
+  cv::Mat plane_m;      ///< CV_32FC1, height of the plane at the cell's middle
   cv::Mat centre_m;     ///< CV_32FC1, mean height moved along the plane from the points' middle to the cell's
   cv::Mat known;        ///< CV_8UC1, 255 where every cell of the disc is known; elsewhere the others are 0
 };

@@ -39,6 +39,14 @@ class ElevationGridTest : public testing::Test {
     const ElevationRaster raster = rasterize(depth_of(T, height), k_, T, 0.2, 60);
     grid.add(t_ns_, raster, fit_planes(raster, {}), T.translation());
   }
+  /// A frame of a network: what it predicts, and what the LiDAR's points in it hit.
+  void predicted(ElevationGrid& grid, const Height& shown, const cv::Mat& returns_m, double seconds = 0.05) {
+    t_ns_ += to_nanoseconds(seconds);
+    const Eigen::Isometry3d T = camera_at(0.1, 0.1, 12);
+    const ElevationRaster raster = rasterize(depth_of(T, shown), k_, T, 0.2, 60);
+    const LidarReturns returns = grid.returns_of(returns_m, k_, T);
+    grid.add(t_ns_, raster, fit_planes(raster, {}), T.translation(), &returns);
+  }
 
   PinholeIntrinsics k_ = scenes::camera_of(176, 176);
   Height flat_ = [](double, double) { return 0.0; };
@@ -89,6 +97,43 @@ TEST_F(ElevationGridTest, AHazardOutOfViewIsRememberedForEverAndOneInViewUntilIt
   frame(grid, camera_at(0.1, 0.1, 12), pole_);
   frame(grid, camera_at(0.1, 0.1, 12), flat_);
   EXPECT_TRUE(grid.cell(0.1, 0.1)->has_obstacle()) << "too soon";
+}
+
+TEST_F(ElevationGridTest, WhatANetworkAloneShowsIsNeitherRememberedNorForgotten) {
+  ElevationGridConfig config;
+  config.forget_after_s = 2;
+  ElevationGrid grid(config);
+  const Eigen::Isometry3d T = camera_at(0.1, 0.1, 12);
+  const cv::Mat none = cv::Mat::zeros(k_.size(), CV_32FC1);
+  const cv::Mat on_flat = depth_of(T, flat_);
+  const cv::Mat on_pole = depth_of(T, pole_);
+  const auto has_obstacle = [&] { return grid.cell(0.1, 0.1)->has_obstacle(); };
+  predicted(grid, pole_, none);
+  EXPECT_FALSE(has_obstacle()) << "no return";
+  predicted(grid, pole_, on_flat);
+  EXPECT_FALSE(has_obstacle()) << "the returns are flat";
+  predicted(grid, flat_, on_pole);
+  EXPECT_FALSE(has_obstacle()) << "returns alone are the frame's own affair";
+  predicted(grid, pole_, on_pole);
+  EXPECT_TRUE(has_obstacle()) << "one sight that both agree on";
+  predicted(grid, flat_, none, 3);
+  EXPECT_TRUE(has_obstacle()) << "no return says that it is gone";
+  predicted(grid, flat_, on_pole, 3);
+  EXPECT_TRUE(has_obstacle()) << "the returns say that it is not";
+  predicted(grid, flat_, on_flat, 3);
+  EXPECT_FALSE(has_obstacle());
+}
+
+TEST_F(ElevationGridTest, GroundThatANetworkAloneMovesHasNotMoved) {
+  ElevationGrid grid({});
+  const Eigen::Isometry3d T = camera_at(0.1, 0.1, 12);
+  const Height hill = [](double x, double y) { return std::hypot(x, y) < 2 ? 0.6 : 0.0; };
+  const auto has_obstacle = [&] { return grid.cell(0.1, 0.1)->has_obstacle(); };
+  for (int i = 0; i < 20; ++i) predicted(grid, flat_, depth_of(T, flat_));
+  predicted(grid, hill, depth_of(T, flat_));
+  EXPECT_FALSE(has_obstacle());
+  predicted(grid, hill, depth_of(T, hill));
+  EXPECT_TRUE(has_obstacle());
 }
 
 TEST_F(ElevationGridTest, ACarThatDrivesOntoTheGroundShowsAtOnce) {
@@ -174,7 +219,7 @@ TEST_F(ElevationGridTest, GroundWithoutLidarReturnsIsAHazard) {
   }
   for (int i = 0; i < 20; ++i) {
     frame(grid, T, flat_);
-    grid.add_returns(returns, k_, T);
+    grid.add_returns(grid.returns_of(returns, k_, T), T);
   }
   const ElevationRaster raster = grid.raster();
   const cv::Mat hazards = grid.hazards(raster);
@@ -208,7 +253,7 @@ TEST_F(ElevationGridTest, FusedSelectionKeepsAwayFromWhatTheFrameDoesNotSee) {
     const cv::Mat depth = depth_of(T, height);
     const SiteSelection frame = selector.select(depth, T);
     t_ns_ += kFrame_ns;
-    return std::make_pair(frame, fused.update(t_ns_, depth, {}, T, frame));
+    return std::make_pair(frame, fused.update(t_ns_, depth, {}, T, frame, false));
   };
   const Eigen::Isometry3d T = camera_at(0.1, 0.1, 25);
   add(T, pole_);
