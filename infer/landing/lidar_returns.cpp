@@ -48,12 +48,15 @@ LidarReturns lidar_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& int
   points.reserve(sparse_m.total() / 4);
   cv::Point low(std::numeric_limits<int>::max(), std::numeric_limits<int>::max());
   cv::Point high(std::numeric_limits<int>::min(), std::numeric_limits<int>::min());
+  std::vector<double> ray_x(static_cast<std::size_t>(sparse_m.cols));  // divided once, not in every row
+  for (int u = 0; u < sparse_m.cols; ++u) ray_x[static_cast<std::size_t>(u)] = intrinsics.ray(u, 0).x();
   for (int v = 0; v < sparse_m.rows; ++v) {
+    const double ray_y = intrinsics.ray(0, v).y();
     const auto* const depths = sparse_m.ptr<float>(v);
     for (int u = 0; u < sparse_m.cols; ++u) {
       const auto z_m = static_cast<double>(depths[u]);
       if (!(z_m > 0)) continue;
-      const Eigen::Vector3d ray = intrinsics.ray(u, v);
+      const Eigen::Vector3d ray(ray_x[static_cast<std::size_t>(u)], ray_y, 1);
       out.within_fov += ray.head<2>().norm() < limit ? 1 : 0;
       const Eigen::Vector3d p = T_world_camera * Eigen::Vector3d(ray * z_m);
       const std::int64_t column = floor_of(p.x() / cell_m) - column0;
