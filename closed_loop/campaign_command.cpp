@@ -9,6 +9,7 @@
 #include "closed_loop/campaign_report.hpp"
 #include "closed_loop/commands.hpp"
 #include "configs/errors.hpp"
+#include "geometry/rig.hpp"
 #include "infer/shipped_model.hpp"
 
 namespace alight::closed_loop {
@@ -71,7 +72,8 @@ int run(CampaignOptions options) {
   }
   expand(options.plan);
   check(options.plan);
-  choose_network(config, options.plan.lidar_only);  // says now what is missing
+  load_rig(config.rig);  // both say now what is missing
+  choose_network(config, options.plan.lidar_only);
   const CampaignFolder folder(options.output, options.plan, config);
   const std::vector<int> missing = folder.missing();
   const std::string program = this_executable().string();

@@ -9,6 +9,8 @@ void bind(Binder& b, MissionConfig& c) {
           between(0.5, 200));
   b.field("geofence_radius_m", c.geofence_radius_m,
           "around where automatic mode begins; no site lies outside", between(1, 10000));
+  b.field("choose_height_m", c.choose_height_m,
+          "no site is chosen from lower over it, the search goes up instead; 0: off", between(0, 1000));
   b.field("fly_speed_mps", c.fly_speed_mps, "speed on the way to a site", between(0.1, 30));
   b.field("above_tolerance_m", c.above_tolerance_m, "horizontal distance that counts as above the site",
           between(0.05, 10));

@@ -5,13 +5,16 @@
 namespace alight {
 
 /// How a landing is flown. Heights are over the ground at the site; the search height is the height at which automatic
-/// mode begins, which has to clear everything inside the geofence.
+/// mode begins, which has to clear everything inside the geofence, or choose_height_m over the ground, if that is higher.
 struct MissionConfig {
   // searching
   double select_timeout_s = 5.0;  ///< without a site that counts for so long: wander (the paper)
   double wander_speed_mps = 3.0;
   double wander_spacing_m = 7.0;    ///< between the turns of the search spiral
   double geofence_radius_m = 40.0;  ///< around the place where automatic mode begins; no site lies outside
+  /// A site is chosen from no lower than this: from near above a roof fills the view and looks like a street. The LiDAR's
+  /// circle is 0.35 of it, so roofs that are less than 17 m wide are told. 0: off.
+  double choose_height_m = 25.0;
   // flying to a site
   double fly_speed_mps = 4.0;
   double above_tolerance_m = 0.5;  ///< horizontally; nearer is above the site

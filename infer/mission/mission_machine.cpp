@@ -168,7 +168,10 @@ GuardSet MissionMachine::guards() const {
   put(G::kAbort, abort_);
   put(G::kHealthFailed, health_failed_);
   put(G::kContact, contact_);
-  put(G::kSiteAccepted, accepted_ && since_s(accepted_ns_) <= config_.max_evidence_age_s);
+  const std::optional<Place> site = fresh_site();
+  put(G::kSiteAccepted, site && !near_below(*site));
+  put(G::kSearchTooLow,
+      site && near_below(*site) && p_world_->z() < search_z_for(*site) - 2 * kSearchHeightTolerance_m);
   put(G::kTargetUnsafe, unsafe_in_row_ >= config_.unsafe_frames);
   put(G::kTargetLost, since_s(seen_safe_ns_) > config_.site_timeout_s);
   if (p_world_ && target_) {
@@ -191,6 +194,7 @@ std::string MissionMachine::reason_for(const Transition& row) const {
   if (health_failed_ && (uses(G::kHealthFailed) || state_ == S::kHold)) reason += ": " + health_text_;
   if (uses(G::kTargetUnsafe) || uses(G::kTargetLost) || (uses(G::kTimeout) && state_ == S::kConfirm))
     reason += " (" + last_check_ + ")";
+  if (uses(G::kSearchTooLow)) reason += figure(" (%.1f m over it)", p_world_->z() - accepted_->p_world.z());
   if (uses(G::kEnergyLow) || uses(G::kEnergyCritical)) {
     reason += figure(" (battery %.0f %%", 100 * charge_) +
               figure(", %.0f s in automatic mode)", automatic_ns_ ? since_s(*automatic_ns_) : 0.0);
@@ -208,12 +212,29 @@ void MissionMachine::leave_target(MissionState to) {
   target_.reset();
 }
 
+std::optional<Place> MissionMachine::fresh_site() const {
+  return since_s(accepted_ns_) <= config_.max_evidence_age_s ? accepted_ : std::nullopt;
+}
+
+/// From so near nobody sees how the ground goes on around a place.
+bool MissionMachine::near_below(const Place& place) const {
+  return p_world_ && p_world_->z() - place.p_world.z() < config_.choose_height_m;
+}
+
+/// The search height from which a place may be chosen. What seems to be near below however high the vehicle goes
+/// (rain, something that hangs from it) does not lead it up for ever.
+double MissionMachine::search_z_for(const Place& place) const {
+  const double wanted_m = place.p_world.z() + config_.choose_height_m + 2 * kSearchHeightTolerance_m;
+  return std::max(home_.z(), std::min(wanted_m, begun_z_m_ + config_.choose_height_m));
+}
+
 /// The site that counts; where none does, the least bad one, which only low energy leads to.
 void MissionMachine::choose() {
-  const bool counts = accepted_ && since_s(accepted_ns_) <= config_.max_evidence_age_s;
+  const std::optional<Place> site = fresh_site();
+  const bool counts = site && !near_below(*site);
   MissionTarget target;
   target.least_bad = !counts;
-  target.place = counts ? *accepted_ : *least_bad();
+  target.place = counts ? *site : *least_bad();
   target.chosen_p_world = target.place.p_world;
   target_ = target;
 }
@@ -224,6 +245,7 @@ void MissionMachine::enter(MissionState state, const std::string& reason) {
   if (state_ == S::kManual) {
     automatic_ns_ = now_ns_;
     home_ = *p_world_;
+    begun_z_m_ = home_.z();
     way_m_ = 0;
     rejected_.clear();
     remembered_.clear();
@@ -329,7 +351,11 @@ MissionCommand MissionMachine::step(std::int64_t t_ns) {
   now_ns_ = std::max(now_ns_, t_ns);
   const double passed_s = stepped_ns_ ? since_s(*stepped_ns_) : 0.0;
   stepped_ns_ = now_ns_;
-  if (const Transition* row = next_transition(state_, guards())) enter(row->to, reason_for(*row));
+  if (const Transition* row = next_transition(state_, guards())) {
+    const std::string reason = reason_for(*row);
+    if ((row->when & bit(G::kSearchTooLow)) != 0) home_.z() = search_z_for(*fresh_site());
+    enter(row->to, reason);
+  }
   abort_ = false;
 
   MissionCommand command;

@@ -89,6 +89,9 @@ class MissionMachine {
   GuardSet guards() const;
   void enter(MissionState state, const std::string& reason);
   void leave_target(MissionState to);
+  std::optional<Place> fresh_site() const;
+  bool near_below(const Place& place) const;
+  double search_z_for(const Place& place) const;
   void choose();
   std::string reason_for(const Transition& row) const;
   void judge_target(const FrameEvidence& frame);
@@ -120,7 +123,8 @@ class MissionMachine {
 
   std::optional<Eigen::Vector3d> p_world_;
   Eigen::Vector3d home_ =
-      Eigen::Vector3d::Zero();  // where automatic mode began: middle of the fence, search height
+      Eigen::Vector3d::Zero();  // where automatic mode began: middle of the fence; z: search height
+  double begun_z_m_ = 0;        // the search height that it began with
   Eigen::Vector3d hold_ = Eigen::Vector3d::Zero();  // where the state was entered
   bool manual_ = true;
   bool abort_ = false;

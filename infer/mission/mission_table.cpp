@@ -90,6 +90,8 @@ const char* name(Guard guard) {
       return "ground contact";
     case G::kSiteAccepted:
       return "site accepted";
+    case G::kSearchTooLow:
+      return "search too low";
     case G::kTargetUnsafe:
       return "site unsafe";
     case G::kTargetLost:
@@ -138,6 +140,8 @@ const std::vector<Transition>& mission_transitions() {
       {from(S::kHold), when(G::kTimeout), kNone, S::kGivenUp, "sensors stay failed"},
       // Searching.
       {kSearching, when(G::kEnergyCritical), kNone, S::kGivenUp, "energy critical and no site to go to"},
+      {kSearching, when(G::kSearchTooLow), kNone, S::kClimbAway,
+       "too near to the ground to see what surrounds a site"},
       {kSearching, when(G::kSiteAccepted), kNone, S::kFlyAbove, "a site counts"},
       {kSearching, when(G::kEnergyLow, G::kLeastBadKnown), kNone, S::kFlyAbove,
        "ENERGY LOW: least bad site instead of a good one"},

@@ -15,7 +15,8 @@ enum class Guard : std::uint8_t {
   kAbort,            ///< an abort was commanded
   kHealthFailed,     ///< HealthState::kFailed
   kContact,          ///< the autopilot feels the ground
-  kSiteAccepted,     ///< a site counts, lies inside the geofence and was not given up before
+  kSiteAccepted,     ///< a site counts: inside the geofence, choose_height_m below, not given up before
+  kSearchTooLow,     ///< a site would count but for choose_height_m, and the vehicle may go higher
   kTargetUnsafe,     ///< the chosen site was seen unsafe in unsafe_frames consecutive frames
   kTargetLost,       ///< it was not seen safe for site_timeout_s
   kAboveTarget,      ///< within above_tolerance_m of it
@@ -28,7 +29,7 @@ enum class Guard : std::uint8_t {
   kLeastBadKnown,   ///< a place of least_bad_radius_m was seen
   kTimeout,         ///< the state's time-out has passed since it was entered
 };
-constexpr int kGuards = 16;
+constexpr int kGuards = 17;
 const char* name(Guard guard);
 
 /// Guards as bits.

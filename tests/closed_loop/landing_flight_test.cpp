@@ -27,6 +27,7 @@ LandConfig quick() {
   config.flight.start_height_m = 15;
   config.flight.clear_above_m = 3;
   config.mission.geofence_radius_m = 10;
+  config.mission.choose_height_m = 0;  // there are no roofs
   return config;
 }
 
@@ -121,6 +122,22 @@ TEST_F(LandingFlightTest, ACarOnTheConfirmedSiteSendsItUpAgain) {
   // The truth is that of the touchdown: the car stands there.
   const double top_m = flight.surface_truth().elevation_m(alone.p_end.x(), alone.p_end.y());
   EXPECT_GT(top_m, flight_->surface_truth().elevation_m(alone.p_end.x(), alone.p_end.y()) + 1);
+}
+
+/// It begins 10 m over the flat roof of a tall house, which is all that it sees.
+TEST_F(LandingFlightTest, ARoofThatFillsTheViewIsNotLandedOn) {
+  LandConfig config;
+  config.rig = quick().rig;
+  config.world.look = sim::Look::kUrban;
+  config.world.seed = 104679;
+  config.flight.images = false;
+  LandingFlight flight(config, config.world.seed, nullptr);
+  const LandingResult result = flight.fly().result;
+  EXPECT_EQ(result.outcome, Outcome::kSafe) << describe(result, 3);
+  const bool went_up = std::any_of(result.events.begin(), result.events.end(), [](const auto& event) {
+    return event.reason.find("too near") != std::string::npos;
+  });
+  EXPECT_TRUE(went_up);
 }
 
 /// Short flights: gusts, noise, a first site, a failure.

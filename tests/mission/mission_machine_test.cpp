@@ -1,5 +1,6 @@
 #include "infer/mission/mission_machine.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -286,6 +287,71 @@ TEST_F(Flight, WithoutEnergyAndSiteItGivesUpLoudly) {
   const MissionCommand command = run_until(S::kGivenUp, config_.time_critical_s + 1);
   EXPECT_THAT(command.reason, HasSubstr("energy critical"));
   EXPECT_NEAR(p_world_.z(), 0, 1);
+}
+
+/// A roof 10 m below fills the view; from 20 m over it its edges are seen, and the street beside it.
+TEST_F(Flight, FromNearOverARoofItGoesUpBeforeItChooses) {
+  const Eigen::Vector3d roof(0.5, 0, -10);
+  const Eigen::Vector3d street(12, 0, ground_z_m_);
+  const auto look = [&] { site_ = p_world_.z() < roof.z() + 20 ? roof : street; };
+  look();
+  start();
+  MissionCommand command = run_for(0.2);
+  EXPECT_EQ(command.state, S::kClimbAway);
+  EXPECT_THAT(command.reason, HasSubstr("too near"));
+  EXPECT_THAT(command.reason, HasSubstr("10.0 m"));
+  for (int i = 0; i < 2000 && command.state != S::kTouchdown; ++i) {
+    look();
+    command = run_for(0.1);
+    if (command.target) ASSERT_EQ(command.target->chosen_p_world, street);
+  }
+  EXPECT_EQ(
+      history(),
+      "manual > select > climb away > select > fly above > descend > confirm > final descent > touchdown");
+}
+
+TEST_F(Flight, WhatStaysNearBelowDoesNotLeadItUpForEver) {
+  config_.time_low_s = 1000;
+  config_.time_critical_s = 1000;
+  machine_ = MissionMachine(config_);
+  const auto look = [&] { site_ = p_world_ - Eigen::Vector3d(0, 0, 9); };
+  look();
+  start();
+  double highest_m = 0;
+  for (int i = 0; i < 1500; ++i) {
+    look();
+    const MissionCommand command = run_for(0.1);
+    ASSERT_STRNE(name(command.state), name(S::kFlyAbove));
+    highest_m = std::max(highest_m, p_world_.z());
+  }
+  EXPECT_GT(highest_m, config_.choose_height_m - 2);
+  EXPECT_LT(highest_m, config_.choose_height_m + 1);
+  int climbs = 0;
+  for (const auto& event : machine_.events()) climbs += event.to == S::kClimbAway ? 1 : 0;
+  EXPECT_LE(climbs, 3);
+}
+
+TEST_F(Flight, GivenBackLowItGoesUpBeforeItChooses) {
+  site_ = Eigen::Vector3d(3, 0, ground_z_m_);
+  start();
+  run_until(S::kConfirm);
+  p_world_.z() = ground_z_m_ + 15;
+  machine_.set_manual(true);
+  run_for(0.1);
+  machine_.set_manual(false);
+  EXPECT_EQ(run_for(0.2).state, S::kClimbAway);
+  run_until(S::kFlyAbove);
+  EXPECT_GE(p_world_.z() - ground_z_m_, config_.choose_height_m - 0.5);
+}
+
+TEST_F(Flight, WithoutAHeightToChooseFromItChoosesFromAnywhere) {
+  config_.choose_height_m = 0;
+  machine_ = MissionMachine(config_);
+  p_world_.z() = ground_z_m_ + 12;
+  site_ = Eigen::Vector3d(3, 0, ground_z_m_);
+  start();
+  run_until(S::kTouchdown);
+  EXPECT_EQ(history(), "manual > select > fly above > descend > confirm > final descent > touchdown");
 }
 
 TEST_F(Flight, AnAbortClimbsFromTheFinalDescentAndSearchesOn) {
