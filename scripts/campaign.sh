@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The campaign of docs/campaign.md: landings in worlds that nobody looked at before. Stopped at any time, it goes on where it was.
-#   scripts/campaign.sh                       every part; 1,000 worlds cost two to three hours of a core, a hundred landings with camera two
+#   scripts/campaign.sh                       every part; 1,000 worlds cost two to four hours of a core, a hundred landings with camera three
 #   scripts/campaign.sh --part calm           one part only:
 #       calm     no failures; no camera is flown, the LiDAR lands alone (configs/closed_loop/coarse.yaml)
 #       failing  one failure of LiDAR, pose or clocks at a random moment, four of five over after 2 to 10 s; likewise without camera
