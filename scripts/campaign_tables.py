@@ -66,6 +66,16 @@ def unsafe(lines):
     return [line for line in lines if line["outcome"] in ("unsafe", "collided")]
 
 
+def gave_up(lines):
+    return [line for line in lines if line["outcome"] not in ("safe", "unsafe", "collided")]
+
+
+def by_duration(lines):
+    """Of landings with a failure those in which it was over after a while, and those in which it stayed."""
+    failed = [line for line in lines if line["failure"]]
+    return [line for line in failed if line["for_s"]], [line for line in failed if not line["for_s"]]
+
+
 def times(lines):
     seconds = sorted(float(line["time_s"]) for line in safe(lines))
     if not seconds:
@@ -79,10 +89,9 @@ def summary(name, lines):
     low, high = wilson(len(unsafe(lines)), len(lines))
     clearances_m = [float(line["clearance_m"]) for line in safe(lines)]
     clearance = f"{min(clearances_m):.1f} m" if clearances_m else "-"
-    gave_up = len(lines) - len(safe(lines)) - len(unsafe(lines))
     second = sum(int(line["sites"]) > 1 for line in safe(lines))
     print(f"| {name} | {min(seeds)} to {max(seeds)} | {len(lines)} | {len(reach)} | {share(len(safe(reach)), len(reach))} "
-          f"| {len(unsafe(lines))} ({100 * low:.2f} to {100 * high:.2f} %) | {gave_up} | {times(lines)} | {second} | {clearance} |")
+          f"| {len(unsafe(lines))} ({100 * low:.2f} to {100 * high:.2f} %) | {len(gave_up(lines))} | {times(lines)} | {second} | {clearance} |")
 
 
 def print_summary(parts):
@@ -91,9 +100,7 @@ def print_summary(parts):
           "| least true clearance |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|")
     for part, lines in parts.items():
         summary(part, lines)
-        failed = [line for line in lines if line["failure"]]
-        for name, some in (("over after a while", [line for line in failed if line["for_s"]]),
-                           ("lasting", [line for line in failed if not line["for_s"]])):
+        for name, some in zip(("over after a while", "lasting"), by_duration(lines)):
             if some:
                 summary(f"... {name}", some)
 
@@ -105,11 +112,9 @@ def print_failures(lines):
     for line in lines:
         by_failure[line["failure"]].append(line)
     for failure, some in sorted(by_failure.items()):
-        cells = []
-        for chosen in ([line for line in some if line["for_s"]], [line for line in some if not line["for_s"]]):
-            cells.append(f"{len(safe(chosen))} of {len(chosen)}")
-        ends = collections.Counter(line["reason"] for line in some if line["outcome"] not in ("safe", "unsafe", "collided"))
-        print(f"| {failure} | {cells[0]} | {cells[1]} | {len(unsafe(some))} "
+        over, lasting = (f"{len(safe(chosen))} of {len(chosen)}" for chosen in by_duration(some))
+        ends = collections.Counter(line["reason"] for line in gave_up(some))
+        print(f"| {failure} | {over} | {lasting} | {len(unsafe(some))} "
               f"| {', '.join(f'{n} {reason}' for reason, n in ends.most_common())} |")
 
 
