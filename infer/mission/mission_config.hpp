@@ -13,7 +13,7 @@ struct MissionConfig {
   double wander_spacing_m = 7.0;    ///< between the turns of the search spiral
   double geofence_radius_m = 40.0;  ///< around the place where automatic mode begins; no site lies outside
   /// A site is chosen from no lower than this: from near above a roof fills the view and looks like a street. The LiDAR's
-  /// circle is 0.35 of it, so roofs that are less than 17 m wide are told. 0: off.
+  /// circle has a radius of 0.35 of it, so roofs that are less than 17 m wide are told. 0: off.
   double choose_height_m = 25.0;
   // flying to a site
   double fly_speed_mps = 4.0;
