@@ -12,7 +12,9 @@ bool operator==(const PinholeIntrinsics& a, const PinholeIntrinsics& b) {
 }
 
 bool Camera::has_distortion() const {
-  return distortion_model != DistortionModel::kNone &&
+  if (distortion_model == DistortionModel::kEquidistant)
+    return true;  // r = f theta, even without coefficients
+  return distortion_model == DistortionModel::kRadtan &&
          std::any_of(distortion_coeffs.begin(), distortion_coeffs.end(), [](double k) { return k != 0; });
 }
 

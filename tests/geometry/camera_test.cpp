@@ -73,5 +73,13 @@ TEST(Camera, EquidistantFollowsKannalaBrandt) {
   EXPECT_NEAR(pixel->y(), 455 * y * theta_d / r + 198.7, 1e-9);
 }
 
+// Kalibr's zeros say an ideal fisheye, not a pinhole.
+TEST(Camera, EquidistantWithoutCoefficientsIsNoPinhole) {
+  const Camera camera = make_camera(DistortionModel::kEquidistant, {0, 0, 0, 0});
+  const auto pixel = camera.project({1, 0, 1});
+  EXPECT_NEAR(pixel->x(), 450 * M_PI / 4 + 321.2, 1e-9);
+  EXPECT_NEAR(camera.unproject(*pixel).x(), 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace alight
