@@ -3,10 +3,35 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/wide_loops.hpp"
+
 namespace alight {
+namespace {
+
+/// Where the rays first + u * step of a row of target pixels meet the source image; column -1 where they do not.
+ALIGHT_WIDE_LOOPS void source_pixels(int width, const Eigen::Vector3d& first, const Eigen::Vector3d& step,
+                                     const PinholeIntrinsics& k, int* __restrict column,
+                                     int* __restrict row) {
+  const double x0 = first.x(), y0 = first.y(), z0 = first.z();
+  const double dx = step.x(), dy = step.y(), dz = step.z();
+  const double fx = k.fx_px, fy = k.fy_px, cx = k.cx_px, cy = k.cy_px;
+  const double right = k.width_px - 0.5, bottom = k.height_px - 0.5;
+  for (int u = 0; u < width; ++u) {
+    const double z = z0 + u * dz;
+    const double u_px = fx * (x0 + u * dx) / z + cx;
+    const double v_px = fy * (y0 + u * dy) / z + cy;
+    // PinholeIntrinsics::contains
+    const bool inside = z > 0 && u_px >= -0.5 && v_px >= -0.5 && u_px < right && v_px < bottom;
+    column[u] = static_cast<int>(inside ? u_px + 0.5 : -1.0);
+    row[u] = static_cast<int>(inside ? v_px + 0.5 : 0.0);
+  }
+}
+
+}  // namespace
 
 cv::Mat reproject_depth(const cv::Mat& depth_source_m, const PinholeIntrinsics& intrinsics_source,
                         const Eigen::Isometry3d& T_target_source,
@@ -72,21 +97,18 @@ cv::Mat rotate_depth(const cv::Mat& depth_source_m, const PinholeIntrinsics& int
   const double down_v = down.y() / intrinsics.fy_px;
   const double down_0 = down.dot(intrinsics.ray(0, 0));
   cv::Mat depth_target_m = cv::Mat::zeros(intrinsics.size(), CV_32FC1);
+  std::vector<int> column(static_cast<std::size_t>(intrinsics.width_px));
+  std::vector<int> row(column.size());
   for (int v = 0; v < depth_target_m.rows; ++v) {
-    const Eigen::Vector3d first = R_source_target * intrinsics.ray(0, v);
+    source_pixels(depth_target_m.cols, R_source_target * intrinsics.ray(0, v), step, intrinsics,
+                  column.data(), row.data());
     auto* const target = depth_target_m.ptr<float>(v);
-    for (int u = 0; u < depth_target_m.cols; ++u) {
-      const double z = first.z() + u * step.z();
-      if (z <= 0) continue;
-      const double u_px = intrinsics.fx_px * (first.x() + u * step.x()) / z + intrinsics.cx_px;
-      const double v_px = intrinsics.fy_px * (first.y() + u * step.y()) / z + intrinsics.cy_px;
-      if (!intrinsics.contains(u_px, v_px)) continue;
-      const int u_source = static_cast<int>(u_px + 0.5);
-      const int v_source = static_cast<int>(v_px + 0.5);
+    for (std::size_t u = 0; u < column.size(); ++u) {
+      if (column[u] < 0) continue;
       // The depth of the measured point itself: the target ray passes half a pixel beside it, and on a tilted view
       // that would be centimetres of height.
-      const double z_target = (down_0 + down_u * u_source + down_v * v_source) *
-                              static_cast<double>(depth_source_m.at<float>(v_source, u_source));
+      const double z_target = (down_0 + down_u * column[u] + down_v * row[u]) *
+                              static_cast<double>(depth_source_m.ptr<float>(row[u])[column[u]]);
       target[u] = static_cast<float>(std::max(z_target, 0.0));
     }
   }

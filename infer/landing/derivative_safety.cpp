@@ -27,23 +27,28 @@ void forgive_specks(const Terrain& terrain, const cv::Mat& level_depth_m, double
   const float slope_limit = static_cast<float>(to_radians(config.max_slope_deg));
   const float roughness_limit = static_cast<float>(to_radians(config.max_roughness_deg));
   for (int v = 0; v < safe.rows; ++v) {
+    const auto* const label = labels.ptr<int>(v);
+    const auto* const depth_m = level_depth_m.ptr<float>(v);
+    const auto* const known = terrain.known.ptr<std::uint8_t>(v);
+    const auto* const slope_rad = terrain.slope_rad.ptr<float>(v);
+    const auto* const roughness_rad = terrain.roughness_rad.ptr<float>(v);
     for (int u = 0; u < safe.cols; ++u) {
-      const int label = labels.at<int>(v, u);
-      if (label == 0) continue;
-      Patch& patch = patches[static_cast<std::size_t>(label)];
-      const double side_m = static_cast<double>(level_depth_m.at<float>(v, u)) / focal_px;
-      const bool known = terrain.known.at<std::uint8_t>(v, u) != 0;
-      patch.area_m2 += known ? side_m * side_m : std::numeric_limits<double>::infinity();
-      patch.excess = std::max({patch.excess, terrain.slope_rad.at<float>(v, u) / slope_limit,
-                               terrain.roughness_rad.at<float>(v, u) / roughness_limit});
+      if (label[u] == 0) continue;
+      Patch& patch = patches[static_cast<std::size_t>(label[u])];
+      const double side_m = static_cast<double>(depth_m[u]) / focal_px;
+      patch.area_m2 += known[u] != 0 ? side_m * side_m : std::numeric_limits<double>::infinity();
+      patch.excess = std::max({patch.excess, slope_rad[u] / slope_limit, roughness_rad[u] / roughness_limit});
     }
   }
   for (int v = 0; v < safe.rows; ++v) {
+    const auto* const label = labels.ptr<int>(v);
+    auto* const safe_row = safe.ptr<std::uint8_t>(v);
     for (int u = 0; u < safe.cols; ++u) {
-      const Patch& patch = patches[static_cast<std::size_t>(labels.at<int>(v, u))];
+      if (label[u] == 0) continue;  // safe already
+      const Patch& patch = patches[static_cast<std::size_t>(label[u])];
       if (patch.area_m2 <= config.speck_max_area_m2 &&
           patch.excess <= static_cast<float>(config.speck_max_excess)) {
-        safe.at<std::uint8_t>(v, u) = 255;
+        safe_row[u] = 255;
       }
     }
   }

@@ -1,12 +1,15 @@
 #include "infer/landing/elevation_raster.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
+
+#include "geometry/wide_loops.hpp"
 
 namespace alight {
 namespace {
@@ -24,50 +27,92 @@ struct Points {
   std::vector<float> height_m;  // the world's z
   std::vector<float> top_m;     // how high the surface surely is; empty: height_m, there is no noise
   std::vector<float> bottom_m;  // and how low
-  float low_east_m = std::numeric_limits<float>::infinity();
-  float low_north_m = low_east_m;
-  float high_east_m = -low_east_m;
-  float high_north_m = -low_east_m;
+  float low_east_m = 0;
+  float low_north_m = 0;
+  float high_east_m = 0;
+  float high_north_m = 0;
 };
+
+/// What turns a row of depths into points: pixel u looks along first + u * step.
+struct RowRays {
+  Eigen::Vector3f first;
+  Eigen::Vector3f step;
+  Eigen::Vector3f camera_m;  // from the corner of the camera's cell; z: the world's
+  float reach_m;
+};
+
+ALIGHT_WIDE_LOOPS void points_of_row(int width, const float* z, const RowRays& rays, float* __restrict east,
+                                     float* __restrict north, float* __restrict up) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const float x0 = rays.first.x(), y0 = rays.first.y(), z0 = rays.first.z();
+  const float dx = rays.step.x(), dy = rays.step.y(), dz = rays.step.z();
+  const float camera_x = rays.camera_m.x(), camera_y = rays.camera_m.y(), camera_z = rays.camera_m.z();
+  const float reach = rays.reach_m;
+  for (int u = 0; u < width; ++u) {
+    const auto column = static_cast<float>(u);
+    const float down = z0 + column * dz;
+    const float x = z[u] * (x0 + column * dx);
+    const float y = z[u] * (y0 + column * dy);
+    const bool good = z[u] > 0 && down < -kFlattestRay && std::abs(x) < reach && std::abs(y) < reach;
+    east[u] = good ? x + camera_x : kNone;
+    north[u] = good ? y + camera_y : kNone;
+    up[u] = camera_z + z[u] * down;
+  }
+}
+
+/// The least and the greatest coordinate of every column of the image so far.
+ALIGHT_WIDE_LOOPS void extend(int width, const float* coordinate_m, float* __restrict low_m,
+                              float* __restrict high_m) {
+  for (int u = 0; u < width; ++u) {  // a comparison with NaN leaves the limit as it is
+    low_m[u] = coordinate_m[u] < low_m[u] ? coordinate_m[u] : low_m[u];
+    high_m[u] = coordinate_m[u] > high_m[u] ? coordinate_m[u] : high_m[u];
+  }
+}
 
 /// @param corner_m from the corner of the camera's cell to the camera
 Points points_of(const cv::Mat& depth_m, const PinholeIntrinsics& k, const Eigen::Isometry3d& T_world_camera,
                  const Eigen::Vector2d& corner_m, double reach_m) {
   Points points(depth_m.total());
   const Eigen::Matrix3f R = T_world_camera.linear().cast<float>();
-  const Eigen::Vector3f step = R.col(0) / static_cast<float>(k.fx_px);
-  const auto height_m = static_cast<float>(T_world_camera.translation().z());
-  const auto corner_east_m = static_cast<float>(corner_m.x());
-  const auto corner_north_m = static_cast<float>(corner_m.y());
-  const auto reach = static_cast<float>(reach_m);
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  float* east = points.east_m.data();
-  float* north = points.north_m.data();
-  float* up = points.height_m.data();
-  for (int v = 0; v < depth_m.rows; ++v) {
-    const Eigen::Vector3f first = R * k.ray(0, v).cast<float>();
-    const float* z = depth_m.ptr<float>(v);
-    for (int u = 0; u < depth_m.cols; ++u) {
-      const auto column = static_cast<float>(u);
-      const float down = first.z() + column * step.z();
-      const float x = z[u] * (first.x() + column * step.x());
-      const float y = z[u] * (first.y() + column * step.y());
-      const bool good = z[u] > 0 && down < -kFlattestRay && std::abs(x) < reach && std::abs(y) < reach;
-      east[u] = good ? x + corner_east_m : kNone;
-      north[u] = good ? y + corner_north_m : kNone;
-      up[u] = height_m + z[u] * down;
-    }
-    for (int u = 0; u < depth_m.cols; ++u) {  // a comparison with NaN leaves the limit as it is
-      points.low_east_m = east[u] < points.low_east_m ? east[u] : points.low_east_m;
-      points.high_east_m = east[u] > points.high_east_m ? east[u] : points.high_east_m;
-      points.low_north_m = north[u] < points.low_north_m ? north[u] : points.low_north_m;
-      points.high_north_m = north[u] > points.high_north_m ? north[u] : points.high_north_m;
-    }
-    east += depth_m.cols;
-    north += depth_m.cols;
-    up += depth_m.cols;
+  RowRays rays;
+  rays.step = R.col(0) / static_cast<float>(k.fx_px);
+  rays.camera_m << corner_m.cast<float>(), static_cast<float>(T_world_camera.translation().z());
+  rays.reach_m = static_cast<float>(reach_m);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const int width = depth_m.cols;
+  Eigen::ArrayXf low_east_m = Eigen::ArrayXf::Constant(width, kInfinity);
+  Eigen::ArrayXf low_north_m = low_east_m;
+  Eigen::ArrayXf high_east_m = -low_east_m;
+  Eigen::ArrayXf high_north_m = -low_east_m;
+  std::size_t at = 0;
+  for (int v = 0; v < depth_m.rows; ++v, at += static_cast<std::size_t>(width)) {
+    rays.first = R * k.ray(0, v).cast<float>();
+    points_of_row(width, depth_m.ptr<float>(v), rays, &points.east_m[at], &points.north_m[at],
+                  &points.height_m[at]);
+    extend(width, &points.east_m[at], low_east_m.data(), high_east_m.data());
+    extend(width, &points.north_m[at], low_north_m.data(), high_north_m.data());
   }
+  points.low_east_m = low_east_m.minCoeff();
+  points.low_north_m = low_north_m.minCoeff();
+  points.high_east_m = high_east_m.maxCoeff();
+  points.high_north_m = high_north_m.maxCoeff();
   return points;
+}
+
+/// How high and how low the surface surely is around each of `count` points.
+/// @param sums, counts of the known heights in its window
+ALIGHT_WIDE_LOOPS void bounds_of(std::size_t count, const float* height_m, const float* sums,
+                                 const float* counts, float single_m, float* __restrict top_m,
+                                 float* __restrict bottom_m) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float n = counts[i] < 1.F ? 1.F : counts[i];
+    const float mean_m = sums[i] / n;
+    const float window_m = single_m / std::sqrt(n);
+    const float single_top_m = height_m[i] - single_m, window_top_m = mean_m - window_m;
+    const float single_bottom_m = height_m[i] + single_m, window_bottom_m = mean_m + window_m;
+    top_m[i] = single_top_m < window_top_m ? window_top_m : single_top_m;
+    bottom_m[i] = window_bottom_m < single_bottom_m ? window_bottom_m : single_bottom_m;
+  }
 }
 
 /// Noise of one point is known to its sigma, that of a window's mean to sigma / sqrt(n): what is wide is told from noise by
@@ -87,16 +132,8 @@ void bound(const cv::Size& size, double window_px, float noise_m, Points& points
   add_up(known, count);
   points.top_m.resize(points.height_m.size());
   points.bottom_m.resize(points.height_m.size());
-  const auto* const sums = sum.ptr<float>();
-  const auto* const counts = count.ptr<float>();
-  const float single_m = kNoiseSigmas * noise_m;
-  for (std::size_t i = 0; i < points.height_m.size(); ++i) {
-    const float n = std::max(counts[i], 1.F);
-    const float mean_m = sums[i] / n;
-    const float window_m = single_m / std::sqrt(n);
-    points.top_m[i] = std::max(points.height_m[i] - single_m, mean_m - window_m);
-    points.bottom_m[i] = std::min(points.height_m[i] + single_m, mean_m + window_m);
-  }
+  bounds_of(points.height_m.size(), points.height_m.data(), sum.ptr<float>(), count.ptr<float>(),
+            kNoiseSigmas * noise_m, points.top_m.data(), points.bottom_m.data());
 }
 
 struct Cell {
@@ -108,7 +145,21 @@ struct Cell {
   float bottom_m = std::numeric_limits<float>::infinity();
 };
 
-int cell_of(float coordinate_m, float per_m) { return static_cast<int>(std::floor(coordinate_m * per_m)); }
+/// Numbers of the cells in which coordinates lie; of NaN: any. Without std::floor, which before SSE4.1 is a call.
+ALIGHT_WIDE_LOOPS void cells_of(int count, const float* coordinate_m, float per_m, int* __restrict cell) {
+  for (int i = 0; i < count; ++i) {
+    const float place = coordinate_m[i] * per_m;
+    const float known = place == place ? place : 0.F;
+    const int towards_zero = static_cast<int>(known);
+    cell[i] = towards_zero - (static_cast<float>(towards_zero) > known ? 1 : 0);
+  }
+}
+
+int cell_of(float coordinate_m, float per_m) {
+  int cell = 0;
+  cells_of(1, &coordinate_m, per_m, &cell);
+  return cell;
+}
 
 /// The points of every cell, and where the cells lie from the camera's.
 struct Cells {
@@ -128,17 +179,25 @@ Cells sort_into_cells(const Points& points, double cell_m) {
   out.size = {cell_of(points.high_east_m, per_m) - out.column0 + 1,
               cell_of(points.high_north_m, per_m) - out.row0 + 1};
   out.cells.resize(static_cast<std::size_t>(out.size.area()));
-  for (std::size_t i = 0; i < points.east_m.size(); ++i) {
-    if (std::isnan(points.east_m[i])) continue;
-    const int column = cell_of(points.east_m[i], per_m) - out.column0;
-    const int row = cell_of(points.north_m[i], per_m) - out.row0;
-    Cell& cell = out.cells[static_cast<std::size_t>(row * out.size.width + column)];
-    cell.sum_m += points.height_m[i];
-    cell.east_m += points.east_m[i];
-    cell.north_m += points.north_m[i];
-    cell.count += 1;
-    cell.top_m = std::max(cell.top_m, tops_m[i]);
-    cell.bottom_m = std::min(cell.bottom_m, bottoms_m[i]);
+  constexpr std::size_t kBlock = 512;  // stays in the nearest cache
+  std::array<int, kBlock> columns{};
+  std::array<int, kBlock> rows{};
+  for (std::size_t begin = 0; begin < points.east_m.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, points.east_m.size() - begin);
+    cells_of(static_cast<int>(count), &points.east_m[begin], per_m, columns.data());
+    cells_of(static_cast<int>(count), &points.north_m[begin], per_m, rows.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = begin + k;
+      if (std::isnan(points.east_m[i])) continue;
+      Cell& cell = out.cells[static_cast<std::size_t>((rows[k] - out.row0) * out.size.width + columns[k] -
+                                                      out.column0)];
+      cell.sum_m += points.height_m[i];
+      cell.east_m += points.east_m[i];
+      cell.north_m += points.north_m[i];
+      cell.count += 1;
+      cell.top_m = std::max(cell.top_m, tops_m[i]);
+      cell.bottom_m = std::min(cell.bottom_m, bottoms_m[i]);
+    }
   }
   return out;
 }

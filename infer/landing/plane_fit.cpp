@@ -6,6 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/wide_loops.hpp"
+
 namespace alight {
 namespace {
 
@@ -35,6 +37,16 @@ struct Planes {
   cv::Mat north;
 };
 
+/// Adds the heights of one cell of the discs around each of `count` cells to the sums for their planes.
+ALIGHT_WIDE_LOOPS void add_heights(int count, const float* z, float east_m, float north_m,
+                                   float* __restrict mean, float* __restrict east, float* __restrict north) {
+  for (int c = 0; c < count; ++c) {
+    mean[c] += z[c];
+    east[c] += east_m * z[c];
+    north[c] += north_m * z[c];
+  }
+}
+
 /// Loops over the disc outside, over the row inside: the compiler works on several cells at once.
 Planes planes_through(const cv::Mat& height_m, const std::vector<Offset>& offsets, int reach) {
   Planes planes{cv::Mat::zeros(height_m.size(), CV_32FC1), cv::Mat::zeros(height_m.size(), CV_32FC1),
@@ -42,26 +54,35 @@ Planes planes_through(const cv::Mat& height_m, const std::vector<Offset>& offset
   float squares = 0;
   for (const Offset& o : offsets) squares += o.east_m * o.east_m;
   const float per_cell = 1.F / static_cast<float>(offsets.size());
-  const int end = height_m.cols - reach;
+  const int count = height_m.cols - 2 * reach;
   for (int row = reach; row < height_m.rows - reach; ++row) {
-    auto* const mean = planes.mean_m.ptr<float>(row);
-    auto* const east = planes.east.ptr<float>(row);
-    auto* const north = planes.north.ptr<float>(row);
-    for (const Offset& o : offsets) {
-      const float* const z = height_m.ptr<float>(row + o.row) + o.column;
-      for (int c = reach; c < end; ++c) {
-        mean[c] += z[c];
-        east[c] += o.east_m * z[c];
-        north[c] += o.north_m * z[c];
-      }
-    }
-    for (int c = reach; c < end; ++c) {
+    auto* const mean = planes.mean_m.ptr<float>(row) + reach;
+    auto* const east = planes.east.ptr<float>(row) + reach;
+    auto* const north = planes.north.ptr<float>(row) + reach;
+    for (const Offset& o : offsets)
+      add_heights(count, height_m.ptr<float>(row + o.row) + reach + o.column, o.east_m, o.north_m, mean, east,
+                  north);
+    for (int c = 0; c < count; ++c) {
       mean[c] *= per_cell;
       east[c] /= squares;
       north[c] /= squares;
     }
   }
   return planes;
+}
+
+/// Farthest that one cell of the discs around each of `count` cells lies from their planes, if farther than so far.
+ALIGHT_WIDE_LOOPS void extend_residuals(int count, const float* top_m, const float* bottom_m, const Offset& o,
+                                        const float* mean, const float* east, const float* north,
+                                        float* __restrict residual_m) {
+  const float east_m = o.east_m, north_m = o.north_m;
+  for (int c = 0; c < count; ++c) {
+    const float plane = mean[c] + east[c] * east_m + north[c] * north_m;
+    const float above = top_m[c] - plane;
+    const float below = plane - bottom_m[c];
+    const float larger = above > below ? above : below;
+    residual_m[c] = larger > residual_m[c] ? larger : residual_m[c];
+  }
 }
 
 void residuals(const cv::Mat& top_m, const cv::Mat& bottom_m, int row, int begin, int end,
@@ -71,23 +92,17 @@ void residuals(const cv::Mat& top_m, const cv::Mat& bottom_m, int row, int begin
   const float* const east = planes.east.ptr<float>(row);
   const float* const north = planes.north.ptr<float>(row);
   for (const Offset& o : offsets) {
-    const float* const top = top_m.ptr<float>(row + o.row) + o.column;
-    const float* const bottom = bottom_m.ptr<float>(row + o.row) + o.column;
-    for (int c = begin; c < end; ++c) {
-      const float plane = mean[c] + east[c] * o.east_m + north[c] * o.north_m;
-      const float above = top[c] - plane;
-      const float below = plane - bottom[c];
-      const float larger = above > below ? above : below;
-      residual_m[c] = larger > residual_m[c] ? larger : residual_m[c];
-    }
-    if (o.row != 0 || o.column != 0) continue;
-    for (int c = begin; c < end; ++c) {
-      const float above = top[c] - mean[c];
-      const float below = mean[c] - bottom[c];
-      deviation_m[c] = above > below ? above : below;
-    }
+    const int first = begin + o.column;
+    extend_residuals(end - begin, top_m.ptr<float>(row + o.row) + first,
+                     bottom_m.ptr<float>(row + o.row) + first, o, mean + begin, east + begin, north + begin,
+                     residual_m + begin);
   }
+  const float* const top = top_m.ptr<float>(row);
+  const float* const bottom = bottom_m.ptr<float>(row);
   for (int c = begin; c < end; ++c) {
+    const float above = top[c] - mean[c];
+    const float below = mean[c] - bottom[c];
+    deviation_m[c] = above > below ? above : below;
     // By so much a tilted plane alone rises from a cell's middle to its corner.
     const float tilt = half_cell_m * (std::abs(east[c]) + std::abs(north[c]));
     residual_m[c] = residual_m[c] > tilt ? residual_m[c] - tilt : 0.F;

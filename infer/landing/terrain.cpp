@@ -74,9 +74,31 @@ float arc_rad(const Angle& a) {
 /// Where one of the depths is missing all are those of level ground.
 struct RowDepths {
   explicit RowDepths(int width)
-      : centre_m(width), left_m(width), right_m(width), up_m(width), down_m(width), step_px(width) {}
+      : step(width),
+        centre_m(width),
+        left_m(width),
+        right_m(width),
+        up_m(width),
+        down_m(width),
+        step_px(width) {}
+  Eigen::ArrayXi step;
   Eigen::ArrayXf centre_m, left_m, right_m, up_m, down_m, step_px;
 };
+
+/// By how many pixels the baseline reaches at every depth of a row; 0 where the depth is unknown or that leads out of
+/// the image.
+/// @param rows that there are above and below
+ALIGHT_WIDE_LOOPS void steps_of_row(int width, const float* depth_m, float baseline_px_m, int rows,
+                                    int* __restrict step) {
+  for (int u = 0; u < width; ++u) {
+    const float known_m = depth_m[u] > 0 ? depth_m[u] : 1.F;
+    const float reach = baseline_px_m / known_m;
+    const float at_least_one = reach > 1.F ? reach : 1.F;
+    const int pixels = static_cast<int>((at_least_one < 1e6F ? at_least_one : 1e6F) + 0.5F);
+    const int to_border = u < width - 1 - u ? u : width - 1 - u;
+    step[u] = depth_m[u] > 0 && pixels <= to_border && pixels <= rows ? pixels : 0;
+  }
+}
 
 /// @param per_x, per_y one over the focal lengths in pixels
 /// @param ray_x of every column, ray_y of the row, at unit depth
@@ -136,15 +158,16 @@ class RowMeasure {
   void look_around(int v, RowDepths& depths, std::uint8_t* known) const {
     const int width = depth_m_.cols;
     const auto* const row = depth_m_.ptr<float>(v);
+    const auto stride = static_cast<std::ptrdiff_t>(depth_m_.step1());  // a row down
+    steps_of_row(width, row, baseline_px_m_, std::min(v, depth_m_.rows - 1 - v), depths.step.data());
     for (int u = 0; u < width; ++u) {
-      const float pixels = std::min(1e6F, std::max(1.F, baseline_px_m_ / row[u]));
-      const int step = row[u] > 0 ? static_cast<int>(pixels + 0.5F) : width;
+      const int step = depths.step[u];
       float left_m = 0, right_m = 0, up_m = 0, down_m = 0;
-      if (u >= step && v >= step && u + step < width && v + step < depth_m_.rows) {
+      if (step > 0) {
         left_m = row[u - step];
         right_m = row[u + step];
-        up_m = depth_m_.ptr<float>(v - step)[u];
-        down_m = depth_m_.ptr<float>(v + step)[u];
+        up_m = row[u - step * stride];
+        down_m = row[u + step * stride];
       }
       const bool all = left_m > 0 && right_m > 0 && up_m > 0 && down_m > 0;
       known[u] = all ? 255 : 0;
@@ -153,7 +176,7 @@ class RowMeasure {
       depths.right_m[u] = all ? right_m : 1.F;
       depths.up_m[u] = all ? up_m : 1.F;
       depths.down_m[u] = all ? down_m : 1.F;
-      depths.step_px[u] = static_cast<float>(step);
+      depths.step_px[u] = static_cast<float>(std::max(step, 1));
     }
   }
 
