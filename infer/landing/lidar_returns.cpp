@@ -7,21 +7,68 @@
 #include <vector>
 
 #include "geometry/frames.hpp"
+#include "geometry/wide_loops.hpp"
 
 namespace alight {
 namespace {
 
-struct Point {
-  std::int32_t column;  // from the camera's own cell
-  std::int32_t row;
-  float height_m;
+/// What the points of a row share on their way into the world.
+struct RowRays {
+  double ray_y;  // at unit depth
+  Eigen::Matrix<double, 3, 4> T_world_camera;
+  double cell_m;
+  double column0;  // the camera's own cell
+  double row0;
+  double reach;  // cells
 };
 
-/// std::floor, which without SSE4.1 is a call for every pixel.
-std::int64_t floor_of(double x) {
-  const auto i = static_cast<std::int64_t>(x);
-  return x < static_cast<double>(i) ? i - 1 : i;
+constexpr std::int32_t kNowhere = std::numeric_limits<std::int32_t>::max();
+
+/// Cells of points, counted from the camera's own, and their heights; column kNowhere where one lies out of reach.
+/// @param ray_x at unit depth
+ALIGHT_WIDE_LOOPS void cells_of_row(std::size_t count, const double* z, const double* ray_x,
+                                    const RowRays& rays, std::int32_t* __restrict column,
+                                    std::int32_t* __restrict row, float* __restrict height_m) {
+  const auto& T = rays.T_world_camera;
+  const double xx = T(0, 0), xy = T(0, 1), xz = T(0, 2), x0 = T(0, 3);
+  const double yx = T(1, 0), yy = T(1, 1), yz = T(1, 2), y0 = T(1, 3);
+  const double zx = T(2, 0), zy = T(2, 1), zz = T(2, 2), z0 = T(2, 3);
+  const double cell_m = rays.cell_m, column0 = rays.column0, row0 = rays.row0, reach = rays.reach;
+  const double ray_y = rays.ray_y;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = ray_x[i] * z[i];
+    const double y = ray_y * z[i];
+    const double c = std::floor((xx * x + xy * y + xz * z[i] + x0) / cell_m) - column0;
+    const double r = std::floor((yx * x + yy * y + yz * z[i] + y0) / cell_m) - row0;
+    const bool near = std::abs(c) <= reach && std::abs(r) <= reach;
+    const auto near_column = static_cast<std::int32_t>(near ? c : 0.0);
+    column[i] = near ? near_column : kNowhere;
+    row[i] = static_cast<std::int32_t>(near ? r : 0.0);
+    height_m[i] = static_cast<float>(zx * x + zy * y + zz * z[i] + z0);
+  }
 }
+
+/// How many rays lie within `limit` of the optical axis, at unit depth.
+ALIGHT_WIDE_LOOPS int count_within(std::size_t count, const double* ray_x, double ray_y, double limit) {
+  int within = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    within += std::sqrt(ray_x[i] * ray_x[i] + ray_y * ray_y) < limit ? 1 : 0;
+  return within;
+}
+
+struct Cell {
+  float count = 0;
+  float mean_m = 0;
+  float top_m = 0;
+  float bottom_m = 0;
+
+  void add(float height_m) {
+    top_m = count > 0 ? std::max(top_m, height_m) : height_m;
+    bottom_m = count > 0 ? std::min(bottom_m, height_m) : height_m;
+    count += 1;
+    mean_m += (height_m - mean_m) / count;
+  }
+};
 
 }  // namespace
 
@@ -41,50 +88,62 @@ LidarReturns lidar_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& int
     throw std::invalid_argument("lidar_returns: the map must be CV_32FC1 of the camera's size");
   LidarReturns out;
   const double limit = std::tan(to_radians(half_fov_deg));
-  const std::int64_t column0 = floor_of(T_world_camera.translation().x() / cell_m);
-  const std::int64_t row0 = floor_of(T_world_camera.translation().y() / cell_m);
-  const std::int64_t reach = floor_of(reach_m / cell_m);
-  std::vector<Point> points;
-  points.reserve(sparse_m.total() / 4);
-  cv::Point low(std::numeric_limits<int>::max(), std::numeric_limits<int>::max());
-  cv::Point high(std::numeric_limits<int>::min(), std::numeric_limits<int>::min());
-  std::vector<double> ray_x(static_cast<std::size_t>(sparse_m.cols));  // divided once, not in every row
-  for (int u = 0; u < sparse_m.cols; ++u) ray_x[static_cast<std::size_t>(u)] = intrinsics.ray(u, 0).x();
+  const int width = sparse_m.cols;
+  Eigen::ArrayXd ray_x(width);
+  for (int u = 0; u < width; ++u) ray_x[u] = intrinsics.ray(u, 0).x();
+  RowRays rays{};
+  rays.T_world_camera = T_world_camera.matrix().topRows<3>();
+  rays.cell_m = cell_m;
+  rays.column0 = std::floor(T_world_camera.translation().x() / cell_m);
+  rays.row0 = std::floor(T_world_camera.translation().y() / cell_m);
+  rays.reach = std::floor(reach_m / cell_m);
+  std::vector<std::int32_t> columns;
+  std::vector<std::int32_t> rows;
+  std::vector<float> heights_m;
+  columns.reserve(sparse_m.total());
+  rows.reserve(sparse_m.total());
+  heights_m.reserve(sparse_m.total());
+  Eigen::ArrayXd z(width + 1);
+  Eigen::ArrayXd known_ray_x(width + 1);
   for (int v = 0; v < sparse_m.rows; ++v) {
-    const double ray_y = intrinsics.ray(0, v).y();
-    const auto* const depths = sparse_m.ptr<float>(v);
-    for (int u = 0; u < sparse_m.cols; ++u) {
-      const auto z_m = static_cast<double>(depths[u]);
-      if (!(z_m > 0)) continue;
-      const Eigen::Vector3d ray(ray_x[static_cast<std::size_t>(u)], ray_y, 1);
-      out.within_fov += ray.head<2>().norm() < limit ? 1 : 0;
-      const Eigen::Vector3d p = T_world_camera * Eigen::Vector3d(ray * z_m);
-      const std::int64_t column = floor_of(p.x() / cell_m) - column0;
-      const std::int64_t row = floor_of(p.y() / cell_m) - row0;
-      if (std::abs(column) > reach || std::abs(row) > reach) continue;
-      const cv::Point cell(static_cast<int>(column), static_cast<int>(row));
-      points.push_back({cell.x, cell.y, static_cast<float>(p.z())});
-      low = {std::min(low.x, cell.x), std::min(low.y, cell.y)};
-      high = {std::max(high.x, cell.x), std::max(high.y, cell.y)};
+    const auto* const depths_m = sparse_m.ptr<float>(v);
+    std::size_t count = 0;  // of points, moved together
+    for (int u = 0; u < width; ++u) {
+      z[static_cast<Eigen::Index>(count)] = static_cast<double>(depths_m[u]);
+      known_ray_x[static_cast<Eigen::Index>(count)] = ray_x[u];
+      count += depths_m[u] > 0 ? 1 : 0;
     }
+    const std::size_t at = columns.size();
+    columns.resize(at + count);
+    rows.resize(at + count);
+    heights_m.resize(at + count);
+    rays.ray_y = intrinsics.ray(0, v).y();
+    cells_of_row(count, z.data(), known_ray_x.data(), rays, columns.data() + at, rows.data() + at,
+                 heights_m.data() + at);
+    out.within_fov += count_within(count, known_ray_x.data(), rays.ray_y, limit);
   }
-  if (points.empty()) return out;
-  out.first_column = column0 + low.x;
-  out.first_row = row0 + low.y;
+  cv::Point low(kNowhere, kNowhere);
+  cv::Point high(std::numeric_limits<int>::min(), std::numeric_limits<int>::min());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i] == kNowhere) continue;
+    low = {std::min(low.x, columns[i]), std::min(low.y, rows[i])};
+    high = {std::max(high.x, columns[i]), std::max(high.y, rows[i])};
+  }
+  if (high.x < low.x) return out;
+  out.first_column = static_cast<std::int64_t>(rays.column0) + low.x;
+  out.first_row = static_cast<std::int64_t>(rays.row0) + low.y;
   const cv::Size size(high.x - low.x + 1, high.y - low.y + 1);
-  for (cv::Mat* map : {&out.count, &out.mean_m, &out.top_m, &out.bottom_m})
-    *map = cv::Mat::zeros(size, CV_32FC1);
-  for (const Point& p : points) {
-    const int row = p.row - low.y;
-    const int column = p.column - low.x;
-    float& count = out.count.at<float>(row, column);
-    float& mean_m = out.mean_m.at<float>(row, column);
-    float& top_m = out.top_m.at<float>(row, column);
-    float& bottom_m = out.bottom_m.at<float>(row, column);
-    top_m = count > 0 ? std::max(top_m, p.height_m) : p.height_m;
-    bottom_m = count > 0 ? std::min(bottom_m, p.height_m) : p.height_m;
-    count += 1;
-    mean_m += (p.height_m - mean_m) / count;
+  std::vector<Cell> cells(static_cast<std::size_t>(size.area()));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i] == kNowhere) continue;
+    cells[static_cast<std::size_t>((rows[i] - low.y) * size.width + columns[i] - low.x)].add(heights_m[i]);
+  }
+  for (cv::Mat* map : {&out.count, &out.mean_m, &out.top_m, &out.bottom_m}) map->create(size, CV_32FC1);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    out.count.ptr<float>()[i] = cells[i].count;
+    out.mean_m.ptr<float>()[i] = cells[i].mean_m;
+    out.top_m.ptr<float>()[i] = cells[i].top_m;
+    out.bottom_m.ptr<float>()[i] = cells[i].bottom_m;
   }
   return out;
 }
