@@ -83,15 +83,21 @@ def times(lines):
     return ", ".join(f"{seconds[int(q * (len(seconds) - 1))]:.0f}" for q in (0.5, 0.9))
 
 
+def second_sites(lines):
+    return sum(int(line["sites"]) > 1 for line in safe(lines))
+
+
+def least_clearance(lines):
+    clearances_m = [float(line["clearance_m"]) for line in safe(lines)]
+    return f"{min(clearances_m):.1f} m" if clearances_m else "-"
+
+
 def summary(name, lines):
     reach = [line for line in lines if float(line["widest_safe_m"]) >= WANTED_RADIUS_M]
     seeds = [int(line["seed"]) for line in lines]
     low, high = wilson(len(unsafe(lines)), len(lines))
-    clearances_m = [float(line["clearance_m"]) for line in safe(lines)]
-    clearance = f"{min(clearances_m):.1f} m" if clearances_m else "-"
-    second = sum(int(line["sites"]) > 1 for line in safe(lines))
     print(f"| {name} | {min(seeds)} to {max(seeds)} | {len(lines)} | {len(reach)} | {share(len(safe(reach)), len(reach))} "
-          f"| {len(unsafe(lines))} ({100 * low:.2f} to {100 * high:.2f} %) | {len(gave_up(lines))} | {times(lines)} | {second} | {clearance} |")
+          f"| {len(unsafe(lines))} ({100 * low:.2f} to {100 * high:.2f} %) | {len(gave_up(lines))} | {times(lines)} | {second_sites(lines)} | {least_clearance(lines)} |")
 
 
 def print_summary(parts):
@@ -103,6 +109,16 @@ def print_summary(parts):
         for name, some in zip(("over after a while", "lasting"), by_duration(lines)):
             if some:
                 summary(f"... {name}", some)
+
+
+def print_looks(lines):
+    """Of landings without failures."""
+    print("| look | landings | landed safely (95 %) | unsafe touchdowns, collisions | time to land, s (median, 90 %) | went to another site "
+          "| least true clearance |\n|---|---:|---:|---:|---:|---:|---:|")
+    for look in sorted({line["look"] for line in lines}):
+        some = [line for line in lines if line["look"] == look]
+        print(f"| {look} | {len(some)} | {share(len(safe(some)), len(some))} | {len(unsafe(some))} | {times(some)} | {second_sites(some)} "
+              f"| {least_clearance(some)} |")
 
 
 def print_failures(lines):
@@ -159,6 +175,9 @@ def main():
     parts = {part: some for part, some in parts.items() if some}
     print_summary(parts)
     print()
+    if "calm" in parts:
+        print_looks(parts["calm"])
+        print()
     failed = [line for line in lines if line["failure"]]
     if failed:
         print_failures(failed)

@@ -43,6 +43,12 @@ class CampaignTables(unittest.TestCase):
         self.assertIn("| LiDAR lost | 1 of 1 | 0 of 1 | 0 | 1 a reason |", page.stdout)
         self.assertIn("| position lost | 0 of 0 | 0 of 2 | 1 | 1 a reason |", page.stdout)
 
+    def test_landings_without_failures_by_look(self):
+        self.write("calm", row(1, "safe"), row(2, "safe", attempts=2, look="forest"), row(3, "gave up", look="forest"))
+        page = tables(self.folder).stdout
+        self.assertIn("| forest | 2 | 50.0 % (9.5 to 90.5) | 0 | 22, 22 | 1 | 4.0 m |\n", page)
+        self.assertIn("| urban | 1 | 100.0 % (20.7 to 100.0) | 0 | 21, 21 | 0 | 3.0 m |\n", page)
+
     def test_the_same_worlds_with_and_without_camera(self):
         self.write("coarse", row(1, "safe"), row(2, "safe"), row(3, "safe"))
         self.write("full", row(1, "safe", p_end=[0.0, 0.0, 0.0], duration_s=60.0), row(2, "unsafe"))
