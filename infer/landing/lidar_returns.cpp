@@ -56,6 +56,47 @@ ALIGHT_WIDE_LOOPS int count_within(std::size_t count, const double* ray_x, doubl
   return within;
 }
 
+/// The points of a whole map as cells_of_row gives them.
+struct CellPoints {
+  std::vector<std::int32_t> columns;
+  std::vector<std::int32_t> rows;
+  std::vector<float> heights_m;
+  double within_limit = 0;  // of the optical axis
+};
+
+/// @param rays what the rows share; its ray_y is set for each
+/// @param limit off the optical axis, at unit depth
+CellPoints points_of(const cv::Mat& sparse_m, const PinholeIntrinsics& intrinsics, RowRays rays,
+                     double limit) {
+  const int width = sparse_m.cols;
+  Eigen::ArrayXd ray_x(width);
+  for (int u = 0; u < width; ++u) ray_x[u] = intrinsics.ray(u, 0).x();
+  CellPoints points;
+  points.columns.reserve(sparse_m.total());
+  points.rows.reserve(sparse_m.total());
+  points.heights_m.reserve(sparse_m.total());
+  Eigen::ArrayXd z(width + 1);
+  Eigen::ArrayXd known_ray_x(width + 1);
+  for (int v = 0; v < sparse_m.rows; ++v) {
+    const auto* const depths_m = sparse_m.ptr<float>(v);
+    std::size_t count = 0;  // of points, moved together
+    for (int u = 0; u < width; ++u) {
+      z[static_cast<Eigen::Index>(count)] = static_cast<double>(depths_m[u]);
+      known_ray_x[static_cast<Eigen::Index>(count)] = ray_x[u];
+      count += depths_m[u] > 0 ? 1 : 0;
+    }
+    const std::size_t at = points.columns.size();
+    points.columns.resize(at + count);
+    points.rows.resize(at + count);
+    points.heights_m.resize(at + count);
+    rays.ray_y = intrinsics.ray(0, v).y();
+    cells_of_row(count, z.data(), known_ray_x.data(), rays, points.columns.data() + at,
+                 points.rows.data() + at, points.heights_m.data() + at);
+    points.within_limit += count_within(count, known_ray_x.data(), rays.ray_y, limit);
+  }
+  return points;
+}
+
 struct Cell {
   float count = 0;
   float mean_m = 0;
@@ -87,41 +128,16 @@ LidarReturns lidar_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& int
   if (sparse_m.type() != CV_32FC1 || sparse_m.size() != intrinsics.size())
     throw std::invalid_argument("lidar_returns: the map must be CV_32FC1 of the camera's size");
   LidarReturns out;
-  const double limit = std::tan(to_radians(half_fov_deg));
-  const int width = sparse_m.cols;
-  Eigen::ArrayXd ray_x(width);
-  for (int u = 0; u < width; ++u) ray_x[u] = intrinsics.ray(u, 0).x();
   RowRays rays{};
   rays.T_world_camera = T_world_camera.matrix().topRows<3>();
   rays.cell_m = cell_m;
   rays.column0 = std::floor(T_world_camera.translation().x() / cell_m);
   rays.row0 = std::floor(T_world_camera.translation().y() / cell_m);
   rays.reach = std::floor(reach_m / cell_m);
-  std::vector<std::int32_t> columns;
-  std::vector<std::int32_t> rows;
-  std::vector<float> heights_m;
-  columns.reserve(sparse_m.total());
-  rows.reserve(sparse_m.total());
-  heights_m.reserve(sparse_m.total());
-  Eigen::ArrayXd z(width + 1);
-  Eigen::ArrayXd known_ray_x(width + 1);
-  for (int v = 0; v < sparse_m.rows; ++v) {
-    const auto* const depths_m = sparse_m.ptr<float>(v);
-    std::size_t count = 0;  // of points, moved together
-    for (int u = 0; u < width; ++u) {
-      z[static_cast<Eigen::Index>(count)] = static_cast<double>(depths_m[u]);
-      known_ray_x[static_cast<Eigen::Index>(count)] = ray_x[u];
-      count += depths_m[u] > 0 ? 1 : 0;
-    }
-    const std::size_t at = columns.size();
-    columns.resize(at + count);
-    rows.resize(at + count);
-    heights_m.resize(at + count);
-    rays.ray_y = intrinsics.ray(0, v).y();
-    cells_of_row(count, z.data(), known_ray_x.data(), rays, columns.data() + at, rows.data() + at,
-                 heights_m.data() + at);
-    out.within_fov += count_within(count, known_ray_x.data(), rays.ray_y, limit);
-  }
+  const CellPoints points = points_of(sparse_m, intrinsics, rays, std::tan(to_radians(half_fov_deg)));
+  out.within_fov = points.within_limit;
+  const std::vector<std::int32_t>& columns = points.columns;
+  const std::vector<std::int32_t>& rows = points.rows;
   cv::Point low(kNowhere, kNowhere);
   cv::Point high(std::numeric_limits<int>::min(), std::numeric_limits<int>::min());
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -136,7 +152,8 @@ LidarReturns lidar_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& int
   std::vector<Cell> cells(static_cast<std::size_t>(size.area()));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i] == kNowhere) continue;
-    cells[static_cast<std::size_t>((rows[i] - low.y) * size.width + columns[i] - low.x)].add(heights_m[i]);
+    cells[static_cast<std::size_t>((rows[i] - low.y) * size.width + columns[i] - low.x)].add(
+        points.heights_m[i]);
   }
   for (cv::Mat* map : {&out.count, &out.mean_m, &out.top_m, &out.bottom_m}) map->create(size, CV_32FC1);
   for (std::size_t i = 0; i < cells.size(); ++i) {
