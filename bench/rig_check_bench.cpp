@@ -7,6 +7,7 @@
 
 #include "calibrate/rig_check.hpp"
 #include "cli/command_line.hpp"
+#include "cli/shipped_files.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 
@@ -62,7 +63,9 @@ Eigen::Isometry3d turned(const Eigen::Isometry3d& T, int axis, double deg) {
 class Bench {
  public:
   Bench(const Options& options, const alight::RigCheckConfig& config)
-      : bags_(bags_of(options.logs)), rig_(alight::load_rig(options.rig)), config_(config) {}
+      : bags_(bags_of(options.logs)),
+        rig_(alight::load_rig(alight::input_file(options.rig))),
+        config_(config) {}
 
   void run() {
     std::printf(

@@ -6,6 +6,7 @@
 #include "calibrate/commands.hpp"
 #include "calibrate/rig_check.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/shipped_files.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
@@ -30,7 +31,7 @@ int run_check(const CheckOptions& options) {
   if (print_if_asked(options.config, config)) return kExitOk;
   if (options.log.empty()) throw ConfigError("--log: is missing; name the bag of a flight");
   if (options.rig.empty()) throw ConfigError("--rig: is missing; name the rig file to check");
-  const Rig rig = load_rig(options.rig);
+  const Rig rig = load_rig(input_file(options.rig));
   std::optional<OutputFolder> report;
   if (!options.report.empty()) report.emplace(options.report);
   const FlightViews flight = read_flight_views_with_bar(options.log, rig, config.log, config.views);

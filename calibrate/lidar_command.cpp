@@ -7,6 +7,7 @@
 #include "calibrate/new_file.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/shipped_files.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
@@ -20,7 +21,7 @@ int run_lidar(const LidarOptions& options) {
     throw ConfigError("--rig: is missing; name the rig file with the calibrated camera");
   const Chessboard board = parse_chessboard(options.board, options.square_m);
   const NewFile output(options.output);
-  const Rig rig = load_rig(options.rig);
+  const Rig rig = load_rig(input_file(options.rig));
   std::optional<OutputFolder> report;
   if (!options.report.empty()) report.emplace(options.report);
   const std::vector<fs::path> logs(options.logs.begin(), options.logs.end());

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/shipped_files.hpp"
 #include "configs/config_reader.hpp"
 
 namespace alight {
@@ -39,11 +40,11 @@ struct ConfigOptions {
 /// Adds --config, --set and --print-config. `default_file` may be empty.
 void add_config_options(CLI::App& app, ConfigOptions& options, const std::string& default_file = "");
 
-/// Loads the configuration, or binds the overrides to the defaults where no file was named.
+/// Loads the configuration (input_file), or binds the overrides to the defaults where no file was named.
 template <class T>
 T load(const ConfigOptions& options) {
   return options.file.empty() ? parse_config<T>("", "defaults", options.overrides)
-                              : load_config<T>(options.file, options.overrides);
+                              : load_config<T>(input_file(options.file), options.overrides);
 }
 
 /// For --print-config: writes the resolved file to stdout. @returns true if the tool is done with that.

@@ -5,12 +5,12 @@
 #include "cli/command_line.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/shipped_files.hpp"
 #include "closed_loop/campaign.hpp"
 #include "closed_loop/campaign_report.hpp"
 #include "closed_loop/commands.hpp"
 #include "configs/errors.hpp"
 #include "geometry/rig.hpp"
-#include "infer/shipped_model.hpp"
 
 namespace alight::closed_loop {
 namespace {
@@ -72,7 +72,7 @@ int run(CampaignOptions options) {
   }
   expand(options.plan);
   check(options.plan);
-  load_rig(config.rig);  // both say now what is missing
+  load_rig(input_file(config.rig));  // both say now what is missing
   choose_network(config, options.plan.lidar_only);
   const CampaignFolder folder(options.output, options.plan, config);
   const std::vector<int> missing = folder.missing();

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 
+#include "cli/shipped_files.hpp"
 #include "closed_loop/message_feed.hpp"
 #include "closed_loop/vehicle_contact.hpp"
 #include "geometry/frames.hpp"
@@ -96,7 +97,7 @@ LandingFlight::Impl::Impl(const LandConfig& config, std::int64_t seed,
                           std::shared_ptr<DepthPredictor> predictor, const PlannedFault& fault)
     : config_(config),
       seed_(seed),
-      rig_(sim::true_rig(load_rig(config.rig), config.sensors)),
+      rig_(sim::true_rig(load_rig(input_file(config.rig)), config.sensors)),
       rectified_(sim::flyable_rig(rig_, config.rig)),
       world_(config.world),
       renderer_(world_, config.renderer),

@@ -1,3 +1,4 @@
+#include "cli/shipped_files.hpp"
 #include "closed_loop/commands.hpp"
 #include "configs/errors.hpp"
 #ifdef ALIGHT_SIM_WITH_NETWORK
@@ -13,7 +14,7 @@ std::shared_ptr<DepthPredictor> choose_network(const LandConfig& config, bool li
   replay.checkpoint = config.checkpoint;
   replay.network = config.network;
   replay.engine = config.engine;
-  return make_chosen_predictor(replay, load_rig(config.rig), false);
+  return make_chosen_predictor(replay, load_rig(input_file(config.rig)), false);
 #else
   throw ConfigError("this alight-sim was built without LibTorch and has no network; land with --lidar-only");
 #endif

@@ -29,7 +29,7 @@ foreach(folder configs cli geometry dataset models infer)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${CMAKE_INSTALL_DATADIR}/alight FILES_MATCHING PATTERN "*.yaml")
 
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/shipped/ DESTINATION ${CMAKE_INSTALL_DATADIR}/alight/models)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/shipped/ DESTINATION ${CMAKE_INSTALL_DATADIR}/alight/models/shipped)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/alightConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/alightConfig.cmake

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "cli/shipped_files.hpp"
 #include "cli/text_format.hpp"
 #include "configs/errors.hpp"
 #include "dataset/align_picture.hpp"
@@ -61,7 +62,7 @@ int run_align(const AlignOptions& options) {
   if (print_if_asked(options.config, config)) return kExitOk;
   if (options.log.empty()) throw ConfigError("the log is missing; name the bag of a flight");
   if (options.rig.empty()) throw ConfigError("--rig: is missing; name the rig file");
-  const Rig rig = load_rig(options.rig);
+  const Rig rig = load_rig(input_file(options.rig));
   const ClockAlignment alignment =
       align_clocks(read_flight_views_with_bar(options.log, rig, config.log, config.views), config);
   std::fputs(format_clock_alignment(alignment, rig).c_str(), stdout);

@@ -1,5 +1,8 @@
 #include "dataset/dataset_config.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include "cli/shipped_files.hpp"
 #include "dataset/content_hash.hpp"
 #include "dataset/sample_store.hpp"
 
@@ -18,13 +21,15 @@ void bind(Binder& b, DatasetConfig& c) {
 
 fs::path find_rig_file(const std::string& rig, const fs::path& config_file) {
   std::error_code code;
-  if (fs::path(rig).is_absolute() || config_file.empty() || fs::exists(rig, code)) return rig;
+  const bool here = fs::path(rig).is_absolute() || fs::exists(rig, code);
+  if (here || !fs::is_regular_file(config_file, code)) return input_file(rig);
   fs::path folder = fs::absolute(config_file, code).parent_path();
-  while (true) {
-    if (fs::exists(folder / rig, code)) return folder / rig;
-    if (folder == folder.parent_path()) return rig;  // load_rig says that it is not there
+  while (!fs::exists(folder / rig, code)) {
+    if (folder == folder.parent_path()) return input_file(rig);
     folder = folder.parent_path();
   }
+  spdlog::info("{}: taking {}, by the configuration {}", rig, (folder / rig).string(), config_file.string());
+  return folder / rig;
 }
 
 std::string recipe_of(const DatasetConfig& config, const Rig& rig) {

@@ -21,8 +21,9 @@ struct DatasetConfig {
 };
 void bind(Binder& b, DatasetConfig& c);
 
-/// The rig file of a configuration: as named, or beside the configuration file or a folder above it, so that
-/// tools also run from elsewhere.
+/// The rig file of a configuration: as named from the working directory; or beside the configuration file or a folder
+/// above it; or the shipped one (input_file). Which, is logged where it is not the first.
+/// @throws ConfigError as input_file
 std::filesystem::path find_rig_file(const std::string& rig, const std::filesystem::path& config_file);
 
 /// Of everything but the log itself that a flight's samples depend on: what the format version, the configuration and

@@ -4,9 +4,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "cli/shipped_files.hpp"
 #include "configs/errors.hpp"
 #include "infer/network_predictor.hpp"
-#include "infer/shipped_model.hpp"
 
 namespace alight {
 
@@ -26,8 +26,8 @@ void say_what_mono_means(const DepthEngineConfig& config) {
 
 std::filesystem::path chosen_network(const ReplayConfig& config) {
   std::optional<std::filesystem::path> checkpoint;
-  if (config.checkpoint) checkpoint = *config.checkpoint;
-  if (!checkpoint && (checkpoint = find_shipped_model(this_executable()))) {
+  if (config.checkpoint) checkpoint = input_file(*config.checkpoint);
+  if (!checkpoint && (checkpoint = shipped_file("models/shipped/default.pt"))) {
     spdlog::info("network: {} (no checkpoint was named)", checkpoint->string());
   }
   if (!checkpoint) {

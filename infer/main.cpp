@@ -2,6 +2,7 @@
 #include <string>
 
 #include "cli/command_line.hpp"
+#include "cli/shipped_files.hpp"
 #include "dataset/dataset_builder.hpp"
 #include "infer/autopilot/autopilot_link.hpp"
 #include "infer/benchmark.hpp"
@@ -115,7 +116,7 @@ void add_options(CLI::App& app, Options& options) {
 
 ReplayConfig resolve(const Options& options) {
   auto config = load<ReplayConfig>(options.config);
-  if (!options.landing.empty()) config.landing = load_config<LandingConfig>(options.landing);
+  if (!options.landing.empty()) config.landing = load_config<LandingConfig>(input_file(options.landing));
   if (!options.checkpoint.empty()) config.checkpoint = options.checkpoint;
   if (options.autopilot) config.autopilot.connection = options.autopilot;
   if (options.lidar_only) config.checkpoint.reset();

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "cli/shipped_files.hpp"
+
 namespace alight {
 namespace {
 
@@ -49,7 +51,8 @@ NodeConfig read_parameters(const ros::NodeHandle& node) {
 }
 
 ReplayConfig resolve(const NodeConfig& config) {
-  ReplayConfig replay = config.config.empty() ? ReplayConfig{} : load_config<ReplayConfig>(config.config);
+  ReplayConfig replay =
+      config.config.empty() ? ReplayConfig{} : load_config<ReplayConfig>(input_file(config.config));
   if (!config.rig.empty()) replay.rig = config.rig;
   if (!config.checkpoint.empty()) replay.checkpoint = config.checkpoint;
   return replay;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "cli/shipped_files.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 #include "sim/counter_random.hpp"
@@ -125,7 +126,7 @@ void bind(Binder& b, BoardSceneConfig& c) {
 }
 
 Rig mounted_rig(const BoardSceneConfig& config) {
-  Rig rig = load_rig(config.rig);
+  Rig rig = load_rig(input_file(config.rig));
   flyable_rig(rig, config.rig);
   if (config.mounting == Mounting::kRandom)
     rig.lidar0->T_camera_lidar = random_mounting(rig.lidar0->T_camera_lidar, config.seed);

@@ -10,6 +10,7 @@
 
 #include "cli/output_folder.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/shipped_files.hpp"
 #include "geometry/frames.hpp"
 #include "sim/bag_writer.hpp"
 #include "sim/message_maker.hpp"
@@ -129,7 +130,7 @@ fs::path with_suffix(const fs::path& folder, const std::string& name, const char
 }  // namespace
 
 FlightRecorder::FlightRecorder(const SimConfig& config, const fs::path& output)
-    : config_(config), output_(output), rig_(true_rig(load_rig(config.rig), config.sensors)) {
+    : config_(config), output_(output), rig_(true_rig(load_rig(input_file(config.rig)), config.sensors)) {
   flyable_rig(rig_, config_.rig);
 }
 

@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/progress_bar.hpp"
+#include "cli/shipped_files.hpp"
 #include "configs/errors.hpp"
 #include "train/network_pass.hpp"
 #include "train/sync_batch_norm.hpp"
@@ -81,7 +82,8 @@ Trainer::Trainer(const TrainConfig& config, SampleSource& training, SampleSource
       flying_(net_) {
   check_batch(config_.train.batch_size, group_.size());
   group_.expect_same("the number of training samples", static_cast<std::int64_t>(training.size()));
-  if (config_.train.image_encoder_weights) load_image_encoder(*config_.train.image_encoder_weights, net_);
+  if (config_.train.image_encoder_weights)
+    load_image_encoder(input_file(*config_.train.image_encoder_weights), net_);
   if (config_.optimizer.average_decay > 0) {
     flying_ = DepthCompletionNet(config_.model);
     place(*flying_, device_, MemoryFormat::kContiguous);

@@ -154,11 +154,13 @@ TEST_F(DatasetBuilder, TheRigIsFoundFromTheConfigurationFile) {
   const fs::path configs = folder_.path() / "configs" / "dataset";
   fs::create_directories(configs);
   fs::create_directories(folder_.path() / "configs" / "rigs");
+  write_bytes(configs / "default.yaml", "");
   write_bytes(folder_.path() / "configs" / "rigs" / "only_here.yaml", "");
   EXPECT_EQ(find_rig_file("configs/rigs/only_here.yaml", configs / "default.yaml"),
             folder_.path() / "configs" / "rigs" / "only_here.yaml");
-  EXPECT_EQ(find_rig_file("configs/rigs/nowhere.yaml", configs / "default.yaml"),
-            "configs/rigs/nowhere.yaml");
+  EXPECT_THAT(
+      message_of<ConfigError>([&] { find_rig_file("configs/rigs/nowhere.yaml", configs / "default.yaml"); }),
+      HasSubstr("configs/rigs/nowhere.yaml: is not in "));
 }
 
 TEST(ShippedDatasetConfig, LoadsAndNamesARigThatLoads) {

@@ -6,6 +6,7 @@
 
 #include "cli/output_folder.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/shipped_files.hpp"
 #include "infer/replay.hpp"
 #include "train/evaluation/depth_check.hpp"
 #include "train/evaluation/depth_file.hpp"
@@ -34,7 +35,7 @@ EvaluationConfig resolve(const EvaluateOptions& options) {
   auto config = load<EvaluationConfig>(options.config);
   if (!options.flights.empty()) config.flights = options.flights;
   if (options.every > 0) config.every = options.every;
-  if (!options.split.empty()) config.split = load_config<TrainConfig>(options.split).split;
+  if (!options.split.empty()) config.split = load_config<TrainConfig>(input_file(options.split)).split;
   if (options.part) config.part = *options.part;
   if (options.blocks.empty()) return config;
   config.part = EvaluatedPart::kHeldOut;
@@ -46,7 +47,7 @@ EvaluationConfig resolve(const EvaluateOptions& options) {
 DepthMethods make_methods(const EvaluateOptions& options, const EvaluationConfig& config) {
   DepthMethods methods;
   for (const std::string& checkpoint : options.checkpoints) {
-    methods.push_back(make_network_method(checkpoint, load_network(checkpoint)));
+    methods.push_back(make_network_method(checkpoint, load_network(input_file(checkpoint))));
   }
   for (auto& baseline : make_baselines(config.baselines)) methods.push_back(std::move(baseline));
   return methods;
@@ -121,9 +122,9 @@ int run_evaluate(const EvaluateOptions& options) {
 
 int run_depth(const DepthOptions& options) {
   const ReplayConfig infer =
-      options.config.empty() ? ReplayConfig() : load_config<ReplayConfig>(options.config);
+      options.config.empty() ? ReplayConfig() : load_config<ReplayConfig>(input_file(options.config));
   const ImageTaskConfig& image = infer.engine.image;
-  const Rig rig = load_rig(options.rig);
+  const Rig rig = load_rig(input_file(options.rig));
   DepthCheckInput input;
   input.left = read_image_file(options.left);
   input.right = read_image_file(options.right);

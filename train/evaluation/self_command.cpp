@@ -8,6 +8,7 @@
 #include "cli/command_line.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/shipped_files.hpp"
 #include "infer/replay.hpp"
 #include "train/evaluation/network_method.hpp"
 #include "train/evaluation/self_report.hpp"
@@ -54,7 +55,8 @@ void check_options(const SelfOptions& options) {
 
 SelfScoreConfig score_config(const SelfOptions& options) {
   SelfScoreConfig config;
-  if (!options.config.empty()) config.image = load_config<ReplayConfig>(options.config).engine.image;
+  if (!options.config.empty())
+    config.image = load_config<ReplayConfig>(input_file(options.config)).engine.image;
   if (!options.windows_s.empty()) config.windows_s = options.windows_s;
   config.threads = options.threads;
   if (options.good.empty()) return config;
@@ -67,7 +69,7 @@ EvaluationConfig sample_config(const SelfOptions& options) {
   EvaluationConfig config;
   config.flights = options.flights;
   config.every = options.every;
-  if (!options.split.empty()) config.split = load_config<TrainConfig>(options.split).split;
+  if (!options.split.empty()) config.split = load_config<TrainConfig>(input_file(options.split)).split;
   config.part = options.part.value_or(EvaluatedPart::kAll);
   return config;
 }
@@ -132,7 +134,7 @@ int run_self(const SelfOptions& options) {
   WholeDataset source(options.data);
   const std::vector<EvaluationItem> items =
       choose_items(sample_times(source.dataset()), sample_config(options));
-  const auto network = make_network_method(options.checkpoint, load_network(options.checkpoint));
+  const auto network = make_network_method(options.checkpoint, load_network(input_file(options.checkpoint)));
   ProgressBar bar("self-evaluate", static_cast<std::int64_t>(items.size()), "samples");
   report.maps =
       score_maps(*network, source, items, source.dataset().info().rig, report.config, [&] { bar.advance(); });

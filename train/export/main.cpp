@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
+#include "cli/shipped_files.hpp"
 #include "models/checkpoint.hpp"
 #include "train/export/export_files.hpp"
 
@@ -56,7 +57,7 @@ void add_options(CLI::App& app, Options& options) {
 }
 
 int run(const Options& options) {
-  const LoadedNetwork network = load_network(options.checkpoint);
+  const LoadedNetwork network = load_network(input_file(options.checkpoint));
   if (std::filesystem::path(options.output).extension() == ".pt") {
     save_network(options.output, network.net, network.info);
     std::printf("wrote %s\n", options.output.c_str());
