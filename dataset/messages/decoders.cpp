@@ -13,6 +13,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Float32.h>
 
+#include "configs/errors.hpp"
 #include "dataset/messages/livox_custom_msg.hpp"
 
 namespace alight {
@@ -27,10 +28,9 @@ Decoder row(LogRole role, DecodeFunction decode) {
           role, decode};
 }
 
-}  // namespace
-
-const std::vector<Decoder>& decoders() {
-  static const std::vector<Decoder> table = {
+/// A deque: rows stay where they are when another one comes.
+std::deque<Decoder>& table() {
+  static std::deque<Decoder> rows = {
       row<sensor_msgs::Image>(LogRole::kImage, decode_image),
       row<sensor_msgs::CompressedImage>(LogRole::kImage, decode_compressed_image),
       row<livox_ros_driver::CustomMsg>(LogRole::kLidar, decode_livox),
@@ -54,7 +54,17 @@ const std::vector<Decoder>& decoders() {
       row<std_msgs::Float32>(LogRole::kHeight, decode_float_height),
       row<sensor_msgs::CameraInfo>(LogRole::kCameraInfo, decode_camera_info),
   };
-  return table;
+  return rows;
+}
+
+}  // namespace
+
+const std::deque<Decoder>& decoders() { return table(); }
+
+void add_decoder(Decoder row) {
+  if (find_decoder(row.role, row.type) != nullptr)
+    throw ConfigError(row.type + ": is read as " + name(row.role) + " already; leave out add_decoder");
+  table().push_back(std::move(row));
 }
 
 const char* name(LogRole role) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "geometry/point_timing.hpp"
 
 /// From the bytes of a ROS 1 message to our types. To add a type: write its decode function, give it a row in
-/// the table of decoders.cpp and a test.
+/// the table of decoders.cpp and a test; from outside, a row by add_decoder.
 namespace alight {
 
 /// What a topic is read as. One ROS type may have a row for several (an odometry is attitude and position).
@@ -57,7 +58,10 @@ struct Decoder {
 /// True for a type whose messages hold the transforms of many frames.
 bool is_transform_tree(const Decoder& decoder);
 /// The table.
-const std::vector<Decoder>& decoders();
+const std::deque<Decoder>& decoders();
+/// A row of the user's own, for a message type that the table does not have (examples/own_lidar.cpp). Call it before
+/// logs are opened or threads started. @throws ConfigError if there is a row for this type and role
+void add_decoder(Decoder row);
 /// Null if no row has this type and role.
 const Decoder* find_decoder(LogRole role, const std::string& type);
 /// "geometry_msgs/QuaternionStamped, sensor_msgs/Imu"

@@ -1,5 +1,6 @@
 #include "dataset/messages/decoders.hpp"
 
+#include <cstdlib>
 #include <fstream>
 #include <random>
 #include <set>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cloud_message.hpp"
+#include "configs/errors.hpp"
 #include "decoding.hpp"
 
 namespace alight::testing {
@@ -98,6 +100,23 @@ TEST(Decoders, AMessageTypeIsFoundOnlyForItsRole) {
       accepted_types(LogRole::kPosition),
       "sensor_msgs/NavSatFix, geometry_msgs/PointStamped, geometry_msgs/PoseStamped, nav_msgs/Odometry, "
       "geometry_msgs/TransformStamped, tf2_msgs/TFMessage, tf/tfMessage");
+}
+
+/// In a process of its own: a row stays.
+TEST(Decoders, ARowOfTheUsersOwnIsFound) {
+  EXPECT_EXIT(
+      {
+        const Decoder* before = find_decoder(LogRole::kLidar, "sensor_msgs/PointCloud2");
+        add_decoder({"acme_msgs/Sweep", "md5", LogRole::kLidar, decode_livox});
+        const Decoder* row = find_decoder(LogRole::kLidar, "acme_msgs/Sweep");
+        const bool stayed = before == find_decoder(LogRole::kLidar, "sensor_msgs/PointCloud2");
+        std::exit(row != nullptr && row->decode == decode_livox && stayed ? 0 : 1);
+      },
+      ::testing::ExitedWithCode(0), "");
+}
+
+TEST(Decoders, ATypeThatIsReadAlreadyGetsNoSecondRow) {
+  EXPECT_THROW(add_decoder({"sensor_msgs/PointCloud2", "md5", LogRole::kLidar, decode_livox}), ConfigError);
 }
 
 /// tests/fuzz/types.txt; of several names of one message, one is enough.
