@@ -39,7 +39,7 @@ function(alight_library name)
   add_library(alight::${name} ALIAS alight_${name})
   set_target_properties(alight_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(alight_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/alight>)
+                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(alight_${name} PUBLIC cxx_std_17)
   target_link_libraries(alight_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
 endfunction()
