@@ -1,0 +1,30 @@
+# Run as a script (cmake -D TOOL=... -D VERSION=... -D GZIP=... -D OUTPUT=... -P): writes what TOOL --help prints, and
+# --help of each of its subcommands, as a compressed manual page.
+cmake_path(GET TOOL FILENAME name)
+cmake_path(REMOVE_EXTENSION OUTPUT LAST_ONLY OUTPUT_VARIABLE page)
+
+# Sets `out` to the help text as lines that roff leaves as they are.
+function(help_of out)
+  execute_process(COMMAND ${TOOL} ${ARGN} --help OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\\" "\\e" text "${text}")
+  string(REPLACE "-" "\\-" text "${text}")
+  string(REGEX REPLACE "(^|\n)([.'])" "\\1\\\\&\\2" text "${text}")
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+help_of(help)
+string(REGEX REPLACE "\n.*" "" summary "${help}")
+string(REPLACE "-" "\\-" escaped ${name})
+string(TOUPPER ${name} title)
+set(text ".TH ${title} 1 \"\" \"alight ${VERSION}\" \"User Commands\"\n.SH NAME\n${escaped} \\- ${summary}\n")
+string(APPEND text ".SH DESCRIPTION\n.nf\n${help}.fi\n")
+if(help MATCHES "Subcommands:\n((  [^\n]*\n)+)")
+  string(REGEX MATCHALL "(^|\n)  [a-z][a-z]*" subcommands "\n${CMAKE_MATCH_1}")
+  foreach(subcommand IN LISTS subcommands)
+    string(STRIP "${subcommand}" subcommand)
+    help_of(help ${subcommand})
+    string(APPEND text ".SS \"${escaped} ${subcommand}\"\n.nf\n${help}.fi\n")
+  endforeach()
+endif()
+file(WRITE ${page} "${text}")
+execute_process(COMMAND ${GZIP} -9nf ${page} COMMAND_ERROR_IS_FATAL ANY)
