@@ -2,9 +2,10 @@
 
 #include <fstream>
 
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "configs/errors.hpp"
 
@@ -32,11 +33,13 @@ class ShippedFiles : public testing::Test {
     return root_ / name;
   }
   const fs::path before_ = fs::current_path();
-  const fs::path root_ = fs::canonical(testing::TempDir()) / ("alight_shipped_files_" + std::to_string(getpid()));
+  const fs::path root_ =
+      fs::canonical(testing::TempDir()) / ("alight_shipped_files_" + std::to_string(getpid()));
 };
 
 TEST_F(ShippedFiles, AreFoundFromTheBuildTreeThroughItsLinks) {
-  EXPECT_EQ(input_file("configs/rigs/paper.yaml"), fs::canonical(ALIGHT_SOURCE_DIR "/configs/rigs/paper.yaml"));
+  EXPECT_EQ(input_file("configs/rigs/paper.yaml"),
+            fs::canonical(ALIGHT_SOURCE_DIR "/configs/rigs/paper.yaml"));
   EXPECT_EQ(shipped_file("models/shipped/default.pt"),
             fs::canonical(ALIGHT_SOURCE_DIR "/models/shipped/default.pt"));
 }
@@ -68,7 +71,8 @@ TEST_F(ShippedFiles, NothingOfTheUsersStandsInForTheProgramsOwn) {
 }
 
 TEST_F(ShippedFiles, OtherNamesStayAsTheyAre) {
-  for (const char* name : {"paper.yaml", "rigs/paper.yaml", "../configs/rigs/paper.yaml", "/no/such/file.yaml", ""})
+  for (const char* name :
+       {"paper.yaml", "rigs/paper.yaml", "../configs/rigs/paper.yaml", "/no/such/file.yaml", ""})
     EXPECT_EQ(input_file(name), name);
 }
 
