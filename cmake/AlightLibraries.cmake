@@ -80,8 +80,9 @@ alight_imported(rosbag "librosbag-storage-dev, libsensor-msgs-dev, libgeometry-m
                 LIBRARIES rosbag_storage roscpp_serialization rostime cpp_common class_loader rcpputils rcutils
                           ament_index_cpp console_bridge tinyxml2)
 
-# Debian's cpp-httplib is compiled with these three, and its classes have other layouts without them.
-alight_imported(httplib libcpp-httplib-dev HEADERS httplib.h LIBRARIES cpp-httplib)
+# Debian's cpp-httplib is compiled with these three, and its classes have other layouts without them; since 0.18 its
+# header itself calls OpenSSL.
+alight_imported(httplib libcpp-httplib-dev HEADERS httplib.h LIBRARIES cpp-httplib crypto)
 if(TARGET alight_httplib)
   target_compile_definitions(alight_httplib INTERFACE CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT
                                                       CPPHTTPLIB_BROTLI_SUPPORT)

@@ -26,7 +26,7 @@ endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   # Without a timestamp inside, the same precompiled header hashes the same in every build folder.
   set(ALIGHT_PCH_OPTIONS -Xclang -fno-pch-timestamp)
-  find_program(LLD_PROGRAM NAMES ld.lld-14 ld.lld)
+  find_program(LLD_PROGRAM NAMES ld.lld)
   if(LLD_PROGRAM)
     add_link_options(-fuse-ld=lld)
   endif()

@@ -1,7 +1,10 @@
 # Debian's packages only; scripts/setup.sh installs them.
 include(AlightLibraries)
 if(ALIGHT_WITH_GROUND)
-  find_package(embree 3 REQUIRED)
+  find_package(embree 4 QUIET)  # Debian 13's
+  if(NOT embree_FOUND)
+    find_package(embree 3 REQUIRED)
+  endif()
   alight_imported(embree libembree-dev INCLUDES ${EMBREE_INCLUDE_DIRS} LINK ${EMBREE_LIBRARY})
 endif()
 alight_require_libraries()

@@ -13,11 +13,11 @@ namespace alight {
 namespace {
 
 /// Where the rays first + u * step of a row of target pixels meet the source image; column -1 where they do not.
-ALIGHT_WIDE_LOOPS void source_pixels(int width, const Eigen::Vector3d& first, const Eigen::Vector3d& step,
+ALIGHT_WIDE_LOOPS void source_pixels(int width, const double (&first)[3], const double (&step)[3],
                                      const PinholeIntrinsics& k, int* __restrict column,
                                      int* __restrict row) {
-  const double x0 = first.x(), y0 = first.y(), z0 = first.z();
-  const double dx = step.x(), dy = step.y(), dz = step.z();
+  const double x0 = first[0], y0 = first[1], z0 = first[2];
+  const double dx = step[0], dy = step[1], dz = step[2];
   const double fx = k.fx_px, fy = k.fy_px, cx = k.cx_px, cy = k.cy_px;
   const double right = k.width_px - 0.5, bottom = k.height_px - 0.5;
   for (int u = 0; u < width; ++u) {
@@ -100,8 +100,9 @@ cv::Mat rotate_depth(const cv::Mat& depth_source_m, const PinholeIntrinsics& int
   std::vector<int> column(static_cast<std::size_t>(intrinsics.width_px));
   std::vector<int> row(column.size());
   for (int v = 0; v < depth_target_m.rows; ++v) {
-    source_pixels(depth_target_m.cols, R_source_target * intrinsics.ray(0, v), step, intrinsics,
-                  column.data(), row.data());
+    const Eigen::Vector3d first = R_source_target * intrinsics.ray(0, v);
+    source_pixels(depth_target_m.cols, {first.x(), first.y(), first.z()}, {step.x(), step.y(), step.z()},
+                  intrinsics, column.data(), row.data());
     auto* const target = depth_target_m.ptr<float>(v);
     for (std::size_t u = 0; u < column.size(); ++u) {
       if (column[u] < 0) continue;

@@ -1,5 +1,7 @@
 #include "models/convolution.hpp"
 
+#include <variant>
+
 namespace alight {
 namespace {
 
@@ -18,8 +20,10 @@ torch::Tensor convolve(const torch::Tensor& x, const torch::Tensor& weight, cons
 
 torch::Tensor ConvolutionImpl::forward(const torch::Tensor& x) {
   if (!by_onednn(x)) return torch::nn::Conv2dImpl::forward(x);
+  using std::
+      get;  // a std::variant since LibTorch 2.1, before that c10's own, whose get() is found by its argument
   return convolve(x, weight, bias, options.stride()->front(),
-                  c10::get<torch::ExpandingArray<2>>(options.padding())->front());
+                  get<torch::ExpandingArray<2>>(options.padding())->front());
 }
 
 }  // namespace alight

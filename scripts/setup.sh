@@ -7,7 +7,7 @@ set -euo pipefail
 
 packages=(
   # tool chain
-  clang-14 lld-14 libomp-14-dev clang-format-14 cmake ninja-build ccache git ca-certificates pkg-config
+  clang lld libomp-dev clang-format-19 libclang-rt-dev cmake ninja-build ccache git ca-certificates pkg-config
   # libraries
   libtorch-dev libgloo-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libcli11-dev
   nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev

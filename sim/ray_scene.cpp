@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <embree3/rtcore.h>
-
+#include "sim/packet_query.hpp"
 #include "sim/random.hpp"
 
 namespace alight::sim {
@@ -66,13 +65,6 @@ Mask active_lanes(std::size_t first, std::size_t count) {
   Mask mask{};
   for (std::size_t k = 0; k < kPacket; ++k) mask[k] = first + k < count ? -1 : 0;
   return mask;
-}
-
-RTCIntersectContext make_context(bool coherent) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
 }
 
 /// Rays in the frame of what moves, each at its own time. @returns the lanes that come near it
@@ -186,7 +178,6 @@ RayScene::RayScene(const World& world) : world_(world), embree_(std::make_unique
 RayScene::~RayScene() = default;
 
 void RayScene::intersect(const RayBatch& rays, bool coherent, RayHits& hits) const {
-  RTCIntersectContext context = make_context(coherent);
   for (std::size_t first = 0; first < rays.count; first += kPacket) {
     RTCRayHit8 packet;
     load_packet(rays, first, packet.ray);
@@ -195,7 +186,7 @@ void RayScene::intersect(const RayBatch& rays, bool coherent, RayHits& hits) con
       packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
     }
     alignas(32) const Mask valid = active_lanes(first, rays.count);
-    rtcIntersect8(valid.data(), embree_->scene, &context, &packet);
+    intersect_packet(embree_->scene, valid.data(), coherent, packet);
     for (std::size_t k = 0; k < kPacket && first + k < rays.count; ++k) {
       RayHit& hit = hits[first + k];
       hit = {};
@@ -220,8 +211,7 @@ void RayScene::meet_movers(const RayBatch& rays, std::size_t first, RayHits& hit
       packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
     }
-    RTCIntersectContext context = make_context(false);
-    rtcIntersect8(valid.data(), embree_->mesh_scenes[mover.mesh()], &context, &packet);
+    intersect_packet(embree_->mesh_scenes[mover.mesh()], valid.data(), false, packet);
     for (std::size_t k = 0; k < kPacket && first + k < rays.count; ++k) {
       if (valid[k] == 0 || packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
       hits[first + k] = {packet.ray.tfar[k], packet.hit.u[k], packet.hit.v[k], packet.hit.primID[k],
@@ -237,20 +227,18 @@ void RayScene::shade_by_movers(const RayBatch& rays, std::size_t first,
     RTCRay8 packet;
     alignas(32) const Mask valid = to_mover(rays, first, mover, embree_->mover_reaches_m[i], packet);
     if (valid == Mask{}) continue;
-    RTCIntersectContext context = make_context(false);
-    rtcOccluded8(valid.data(), embree_->mesh_scenes[mover.mesh()], &context, &packet);
+    occlude_packet(embree_->mesh_scenes[mover.mesh()], valid.data(), false, packet);
     for (std::size_t k = 0; k < kPacket && first + k < rays.count; ++k)
       blocked[first + k] = blocked[first + k] || (valid[k] != 0 && packet.tfar[k] < 0);
   }
 }
 
 void RayScene::occluded(const RayBatch& rays, std::array<bool, RayBatch::kCapacity>& blocked) const {
-  RTCIntersectContext context = make_context(true);
   for (std::size_t first = 0; first < rays.count; first += kPacket) {
     RTCRay8 packet;
     load_packet(rays, first, packet);
     alignas(32) const Mask valid = active_lanes(first, rays.count);
-    rtcOccluded8(valid.data(), embree_->scene, &context, &packet);
+    occlude_packet(embree_->scene, valid.data(), true, packet);
     for (std::size_t k = 0; k < kPacket && first + k < rays.count; ++k)
       blocked[first + k] = packet.tfar[k] < 0;
     if (!world_.movers().empty()) shade_by_movers(rays, first, blocked);

@@ -7,8 +7,8 @@
 #include "configs/errors.hpp"
 
 // LibTorch's target defines USE_C10D_GLOO and USE_C10D_NCCL as it was built; what its headers include is not always
-// installed with it.
-#if defined(USE_C10D_GLOO) && __has_include(<gloo/algorithm.h>)
+// installed with it. CMake says whether Gloo's are.
+#if defined(USE_C10D_GLOO) && defined(ALIGHT_GLOO_HEADERS)
 #define ALIGHT_GLOO
 #endif
 #if defined(USE_C10D_NCCL) && __has_include(<nccl.h>)

@@ -4,8 +4,25 @@
 #include <thread>
 
 #include <ATen/autocast_mode.h>
+#include <torch/version.h>
 
 namespace alight {
+namespace {
+
+/// LibTorch's operators convert their inputs to bfloat16 on the device's kind, or no longer.
+void set_autocast(torch::DeviceType device, bool on) {
+#if TORCH_VERSION_MAJOR > 2 || (TORCH_VERSION_MAJOR == 2 && TORCH_VERSION_MINOR >= 4)
+  if (on) at::autocast::set_autocast_dtype(device, at::kBFloat16);
+  at::autocast::set_autocast_enabled(device, on);
+#else
+  const bool cuda = device == torch::kCUDA;
+  if (on && cuda) at::autocast::set_autocast_gpu_dtype(at::kBFloat16);
+  if (on && !cuda) at::autocast::set_autocast_cpu_dtype(at::kBFloat16);
+  cuda ? at::autocast::set_enabled(on) : at::autocast::set_cpu_enabled(on);
+#endif
+}
+
+}  // namespace
 
 void bind(Binder& b, ComputeConfig& c) {
   b.field("device", c.device, "auto | cpu | cuda | cuda:N");
@@ -40,27 +57,17 @@ torch::MemoryFormat torch_format(MemoryFormat format) {
 }
 
 PrecisionScope::PrecisionScope(Precision precision, torch::Device device)
-    : on_(precision == Precision::kBfloat16), cuda_(device.is_cuda()) {
+    : on_(precision == Precision::kBfloat16), device_(device.type()) {
   if (!on_) return;
   at::autocast::increment_nesting();
-  if (cuda_) {
-    at::autocast::set_autocast_gpu_dtype(at::kBFloat16);
-    at::autocast::set_enabled(true);
-  } else {
-    at::autocast::set_autocast_cpu_dtype(at::kBFloat16);
-    at::autocast::set_cpu_enabled(true);
-  }
+  set_autocast(device_, true);
 }
 
 PrecisionScope::~PrecisionScope() {
   if (!on_) return;
   // Copies of weights in the lower precision are kept until the outermost scope ends.
   if (at::autocast::decrement_nesting() == 0) at::autocast::clear_cache();
-  if (cuda_) {
-    at::autocast::set_enabled(false);
-  } else {
-    at::autocast::set_cpu_enabled(false);
-  }
+  set_autocast(device_, false);
 }
 
 }  // namespace alight

@@ -45,7 +45,7 @@ class PrecisionScope {
 
  private:
   bool on_;
-  bool cuda_;
+  torch::DeviceType device_;
 };
 
 }  // namespace alight

@@ -35,18 +35,18 @@ struct Points {
 
 /// What turns a row of depths into points: pixel u looks along first + u * step.
 struct RowRays {
-  Eigen::Vector3f first;
-  Eigen::Vector3f step;
-  Eigen::Vector3f camera_m;  // from the corner of the camera's cell; z: the world's
+  float first[3];
+  float step[3];
+  float camera_m[3];  // from the corner of the camera's cell; z: the world's
   float reach_m;
 };
 
 ALIGHT_WIDE_LOOPS void points_of_row(int width, const float* z, const RowRays& rays, float* __restrict east,
                                      float* __restrict north, float* __restrict up) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  const float x0 = rays.first.x(), y0 = rays.first.y(), z0 = rays.first.z();
-  const float dx = rays.step.x(), dy = rays.step.y(), dz = rays.step.z();
-  const float camera_x = rays.camera_m.x(), camera_y = rays.camera_m.y(), camera_z = rays.camera_m.z();
+  const float x0 = rays.first[0], y0 = rays.first[1], z0 = rays.first[2];
+  const float dx = rays.step[0], dy = rays.step[1], dz = rays.step[2];
+  const float camera_x = rays.camera_m[0], camera_y = rays.camera_m[1], camera_z = rays.camera_m[2];
   const float reach = rays.reach_m;
   for (int u = 0; u < width; ++u) {
     const auto column = static_cast<float>(u);
@@ -75,8 +75,9 @@ Points points_of(const cv::Mat& depth_m, const PinholeIntrinsics& k, const Eigen
   Points points(depth_m.total());
   const Eigen::Matrix3f R = T_world_camera.linear().cast<float>();
   RowRays rays;
-  rays.step = R.col(0) / static_cast<float>(k.fx_px);
-  rays.camera_m << corner_m.cast<float>(), static_cast<float>(T_world_camera.translation().z());
+  Eigen::Vector3f::Map(rays.step) = R.col(0) / static_cast<float>(k.fx_px);
+  Eigen::Vector3f::Map(rays.camera_m) << corner_m.cast<float>(),
+      static_cast<float>(T_world_camera.translation().z());
   rays.reach_m = static_cast<float>(reach_m);
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const int width = depth_m.cols;
@@ -86,7 +87,7 @@ Points points_of(const cv::Mat& depth_m, const PinholeIntrinsics& k, const Eigen
   Eigen::ArrayXf high_north_m = -low_east_m;
   std::size_t at = 0;
   for (int v = 0; v < depth_m.rows; ++v, at += static_cast<std::size_t>(width)) {
-    rays.first = R * k.ray(0, v).cast<float>();
+    Eigen::Vector3f::Map(rays.first) = R * k.ray(0, v).cast<float>();
     points_of_row(width, depth_m.ptr<float>(v), rays, &points.east_m[at], &points.north_m[at],
                   &points.height_m[at]);
     extend(width, &points.east_m[at], low_east_m.data(), high_east_m.data());

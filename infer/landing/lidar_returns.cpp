@@ -15,7 +15,7 @@ namespace {
 /// What the points of a row share on their way into the world.
 struct RowRays {
   double ray_y;  // at unit depth
-  Eigen::Matrix<double, 3, 4> T_world_camera;
+  double T_world_camera[3][4];
   double cell_m;
   double column0;  // the camera's own cell
   double row0;
@@ -30,9 +30,9 @@ ALIGHT_WIDE_LOOPS void cells_of_row(std::size_t count, const double* z, const do
                                     const RowRays& rays, std::int32_t* __restrict column,
                                     std::int32_t* __restrict row, float* __restrict height_m) {
   const auto& T = rays.T_world_camera;
-  const double xx = T(0, 0), xy = T(0, 1), xz = T(0, 2), x0 = T(0, 3);
-  const double yx = T(1, 0), yy = T(1, 1), yz = T(1, 2), y0 = T(1, 3);
-  const double zx = T(2, 0), zy = T(2, 1), zz = T(2, 2), z0 = T(2, 3);
+  const double xx = T[0][0], xy = T[0][1], xz = T[0][2], x0 = T[0][3];
+  const double yx = T[1][0], yy = T[1][1], yz = T[1][2], y0 = T[1][3];
+  const double zx = T[2][0], zy = T[2][1], zz = T[2][2], z0 = T[2][3];
   const double cell_m = rays.cell_m, column0 = rays.column0, row0 = rays.row0, reach = rays.reach;
   const double ray_y = rays.ray_y;
   for (std::size_t i = 0; i < count; ++i) {
@@ -129,7 +129,8 @@ LidarReturns lidar_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& int
     throw std::invalid_argument("lidar_returns: the map must be CV_32FC1 of the camera's size");
   LidarReturns out;
   RowRays rays{};
-  rays.T_world_camera = T_world_camera.matrix().topRows<3>();
+  Eigen::Matrix<double, 3, 4, Eigen::RowMajor>::Map(&rays.T_world_camera[0][0]) =
+      T_world_camera.matrix().topRows<3>();
   rays.cell_m = cell_m;
   rays.column0 = std::floor(T_world_camera.translation().x() / cell_m);
   rays.row0 = std::floor(T_world_camera.translation().y() / cell_m);

@@ -49,12 +49,11 @@ struct RowCells {
 };
 
 /// @param camera, first, step in cells: pixel u of depth z lies at camera + z * (first + u * step)
-ALIGHT_WIDE_LOOPS void find_cells(int width, const float* z, const Eigen::Vector2f& camera,
-                                  const Eigen::Vector2f& first, const Eigen::Vector2f& step,
-                                  const cv::Size& size, float cell_m, int* __restrict cell,
-                                  float* __restrict off_centre_m) {
-  const float camera_x = camera.x(), camera_y = camera.y(), x0 = first.x(), y0 = first.y();
-  const float step_x = step.x(), step_y = step.y();
+ALIGHT_WIDE_LOOPS void find_cells(int width, const float* z, const float (&camera)[2],
+                                  const float (&first)[2], const float (&step)[2], const cv::Size& size,
+                                  float cell_m, int* __restrict cell, float* __restrict off_centre_m) {
+  const float camera_x = camera[0], camera_y = camera[1], x0 = first[0], y0 = first[1];
+  const float step_x = step[0], step_y = step[1];
   const int columns = size.width;
   const auto right = static_cast<float>(size.width);
   const auto top = static_cast<float>(size.height);
@@ -95,8 +94,9 @@ void SiteSelector::show_ground(const Eigen::Isometry3d& T_world_level, SiteSelec
   for (int v = 0; v < size.height; ++v) {
     const Eigen::Vector2f first = turn * intrinsics_.ray(0, v).head<2>().cast<float>();
     const Eigen::Vector2f step = turn.col(0) / static_cast<float>(intrinsics_.fx_px);
-    find_cells(size.width, out.level_depth_m.ptr<float>(v), camera, first, step, raster.size(),
-               static_cast<float>(raster.cell_m), row.cell.data(), row.off_centre_m.data());
+    find_cells(size.width, out.level_depth_m.ptr<float>(v), {camera.x(), camera.y()}, {first.x(), first.y()},
+               {step.x(), step.y()}, raster.size(), static_cast<float>(raster.cell_m), row.cell.data(),
+               row.off_centre_m.data());
     auto* const known = out.terrain.known.ptr<std::uint8_t>(v);
     auto* const slope_rad = out.terrain.slope_rad.ptr<float>(v);
     auto* const residual_m = out.terrain.residual_m.ptr<float>(v);

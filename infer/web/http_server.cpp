@@ -108,6 +108,28 @@ class LimitedStream : public httplib::Stream {
   SteadyTime deadline_;
 };
 
+using Note = std::function<void(httplib::Request&)>;
+
+/// One request by the library's own member function, which in Debian 12 asks the stream for both addresses itself.
+[[maybe_unused]] bool process(httplib::Server& server, LimitedStream& stream, bool& closed, const Note& note,
+                              bool (httplib::Server::*member)(httplib::Stream&, bool, bool&, const Note&)) {
+  return (server.*member)(stream, false, closed, note);
+}
+
+/// The same by Debian 13's, which is told them.
+[[maybe_unused]] bool process(httplib::Server& server, LimitedStream& stream, bool& closed, const Note& note,
+                              bool (httplib::Server::*member)(httplib::Stream&, const std::string&, int,
+                                                              const std::string&, int, bool, bool&,
+                                                              const Note&)) {
+  std::string remote_ip;
+  std::string local_ip;
+  int remote_port = 0;
+  int local_port = 0;
+  stream.get_remote_ip_and_port(remote_ip, remote_port);
+  stream.get_local_ip_and_port(local_ip, local_port);
+  return (server.*member)(stream, remote_ip, remote_port, local_ip, local_port, false, closed, note);
+}
+
 /// Nothing more will be sent. What the client still sends is taken in for a moment: a socket that is closed with bytes
 /// unread resets the connection, and the client would lose the answer.
 void part(socket_t socket) {
@@ -218,11 +240,11 @@ bool HttpServer::serve(socket_t socket) {
     bool closed = false;
     // After what is no request, or a refused one whose body was left unread, nothing tells where the next begins.
     last = true;
-    const auto note = [&last](httplib::Request& request) {
+    const Note note = [&last](httplib::Request& request) {
       last = request.method != "GET" && request.method != "HEAD";
       if (last) request.headers.emplace("Connection", "close");
     };
-    if (!process_request(stream, false, closed, note) || closed) return false;
+    if (!process(*this, stream, closed, note, &HttpServer::process_request) || closed) return false;
   }
   return true;
 }
