@@ -25,13 +25,13 @@ Eigen::Isometry3d tilted_camera() {
   return T_world_camera;
 }
 
-void rotate_depth_352(benchmark::State& state) {
+void level_depth_352(benchmark::State& state) {
   const cv::Mat depth = bench::ground();
   const Eigen::Matrix3d R_level_camera = level_rotation(tilted_camera().linear());
   for (auto _ : state)
     benchmark::DoNotOptimize(rotate_depth(depth, bench::paper_rig().intrinsics, R_level_camera));
 }
-BENCHMARK(rotate_depth_352)->Unit(benchmark::kMillisecond);
+BENCHMARK(level_depth_352)->Unit(benchmark::kMillisecond);
 
 void rasterize_352(benchmark::State& state) {
   const cv::Mat depth = bench::ground();

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// A printed chessboard. Frame `board`: origin at the first inner corner, x along the columns, y along the rows, z into

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "configs/config_reader.hpp"
 #include "dataset/score_peak.hpp"
 #include "geometry/frames.hpp"
 

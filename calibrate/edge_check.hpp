@@ -1,7 +1,7 @@
 #pragma once
 
 #include "calibrate/rigid_motion.hpp"
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "dataset/edge_agreement.hpp"
 #include "dataset/turn_search.hpp"
 

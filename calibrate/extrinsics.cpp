@@ -5,6 +5,7 @@
 
 #include "calibrate/mounting_search.hpp"
 #include "cli/text_format.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 

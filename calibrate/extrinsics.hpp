@@ -9,7 +9,7 @@
 #include "calibrate/board_fit.hpp"
 #include "calibrate/chessboard.hpp"
 #include "calibrate/rigid_motion.hpp"
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "geometry/camera.hpp"
 
 namespace alight {

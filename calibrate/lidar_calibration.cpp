@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/text_format.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {

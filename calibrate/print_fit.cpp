@@ -16,7 +16,7 @@ constexpr double kReach_squares =
 constexpr int kParameters = 11;
 using Step = Eigen::Matrix<double, kParameters, 1>;
 
-PrintState moved(const PrintState& state, const Eigen::VectorXd& step) {
+PrintState moved_by(const PrintState& state, const Eigen::VectorXd& step) {
   PrintState result = state;
   result.T_lidar_board = state.T_lidar_board * small_motion(step.head<6>());
   result.range_offset_m += step[6];
@@ -77,7 +77,7 @@ void PrintFit::measure_noise(const PrintState& state) {
 NormalEquations PrintFit::minimise(PrintState& state) const {
   return alight::minimise(
       state, [&](const PrintState& s) { return linearise(s); }, [&](const PrintState& s) { return cost(s); },
-      moved);
+      moved_by);
 }
 
 double PrintFit::cost(const PrintState& state) const {
@@ -97,7 +97,7 @@ NormalEquations PrintFit::linearise(const PrintState& state) const {
   for (int k = 0; k < kParameters; ++k) {
     Step step = Step::Zero();
     step[k] = step_size[k];
-    ahead[static_cast<std::size_t>(k)] = moved(state, step);
+    ahead[static_cast<std::size_t>(k)] = moved_by(state, step);
   }
   Eigen::Matrix<double, kParameters, kParameters> H = Eigen::Matrix<double, kParameters, kParameters>::Zero();
   Step g = Step::Zero();

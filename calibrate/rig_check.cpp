@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/text_format.hpp"
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

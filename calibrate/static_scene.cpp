@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "dataset/flight_log.hpp"
 #include "dataset/grey_image.hpp"

@@ -86,9 +86,9 @@ Eigen::VectorXd residuals(const Chessboard& board, const StereoCorners& corners,
   return r;
 }
 
-class Problem {
+class BundleProblem {
  public:
-  Problem(const Chessboard& board, const std::vector<StereoCorners>& corners)
+  BundleProblem(const Chessboard& board, const std::vector<StereoCorners>& corners)
       : board_(board), corners_(corners) {}
 
   NormalEquations linearise(const StereoBundle& state) const {
@@ -142,7 +142,7 @@ Corners project_board(const Chessboard& board, const Camera& camera,
 
 BundleResult refine_stereo(const Chessboard& board, const std::vector<StereoCorners>& corners,
                            const StereoBundle& start) {
-  const Problem problem(board, corners);
+  const BundleProblem problem(board, corners);
   BundleResult result;
   result.bundle = start;
   const NormalEquations end = minimise(

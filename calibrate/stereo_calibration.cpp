@@ -10,6 +10,7 @@
 #include "calibrate/rigid_motion.hpp"
 #include "calibrate/stereo_bundle.hpp"
 #include "cli/text_format.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/stereo_rectification.hpp"

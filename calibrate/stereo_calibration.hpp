@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "calibrate/chessboard.hpp"
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "geometry/rig.hpp"
 
 namespace alight {

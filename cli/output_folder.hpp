@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// A folder that appears whole or not at all: files go to `<path>.partial`, commit() renames it. An

@@ -16,6 +16,7 @@
 
 #include "cli/output_folder.hpp"
 #include "closed_loop/landing_pictures.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "sim/counter_random.hpp"
 

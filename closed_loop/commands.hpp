@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "closed_loop/land_config.hpp"
+#include "configs/errors.hpp"
 #include "infer/depth_predictor.hpp"
 
 namespace alight::closed_loop {

@@ -1,5 +1,7 @@
 #include "closed_loop/land_config.hpp"
 
+#include "configs/config_reader.hpp"
+
 namespace alight::closed_loop {
 
 void bind(Binder& b, LandFlightConfig& c) {

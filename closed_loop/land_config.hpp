@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "infer/landing_pipeline.hpp"
 #include "infer/mission/mission_config.hpp"
 #include "infer/network_config.hpp"

@@ -32,6 +32,14 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   endif()
 endif()
 
+# A clean build in half the time: the headers and templates that the sources of a target share are compiled once a batch.
+# Names in anonymous namespaces must therefore differ within a target. Sources with options of their own stay apart.
+option(ALIGHT_UNITY "Compile the sources of a target in batches: quicker as a whole, slower after a change" OFF)
+if(ALIGHT_UNITY)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+endif()
+
 # alight_library(name SOURCES ... DEPENDS ...): one static library a folder, alight::name.
 function(alight_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})

@@ -29,6 +29,6 @@ function(alight_git_revision target)
     BYPRODUCTS ${output}
     COMMENT "Asking git for the commit")
   target_sources(${target} PRIVATE ${output})
-  set_source_files_properties(${output} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${output} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   add_dependencies(${target} ${target}_git_revision)
 endfunction()

@@ -9,7 +9,7 @@
 namespace alight {
 namespace {
 
-const cv::Scalar kInk(60, 60, 60);
+const cv::Scalar kScoreInk(60, 60, 60);
 const cv::Scalar kImages(40, 40, 220);
 const cv::Scalar kPoses(200, 110, 30);
 
@@ -26,7 +26,7 @@ void draw_scores(const cv::Mat& picture, const std::string& title, const ClockOf
       title + (clock.told ? format_text(": %+.1f +- %.1f ms", 1e3 * clock.offset_s, 1e3 * clock.sigma_s)
                           : ": cannot be told"),
       {clock.scores.front().first, clock.scores.back().first}, {low->second, high->second});
-  panel.line(clock.scores, kInk);
+  panel.line(clock.scores, kScoreInk);
   if (clock.told) panel.mark(clock.offset_s, kImages);
   panel.label_x(format_text("%+.0f ms", 1e3 * clock.scores.front().first),
                 format_text("%+.0f ms", 1e3 * clock.scores.back().first));

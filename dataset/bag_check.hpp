@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// Walks the top-level records of a ROS 1 bag (format 2.0, http://wiki.ros.org/Bags/Format/2.0) and checks

@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// How many messages the index of a ROS 1 bag (format 2.0, http://wiki.ros.org/Bags/Format/2.0) holds of each topic.

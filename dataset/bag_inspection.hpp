@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "configs/errors.hpp"
 #include "dataset/messages/decoders.hpp"
 
 namespace alight {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "configs/errors.hpp"
 #include "dataset/bag_salvage.hpp"
 #include "dataset/messages/byte_reader.hpp"
 

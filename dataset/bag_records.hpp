@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "configs/errors.hpp"
+
 /// The records of a ROS 1 bag as they lie in the file (format 2.0, http://wiki.ros.org/Bags/Format/2.0). Every length is
 /// checked against what is left before it is used.
 namespace alight {

@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "cli/text_format.hpp"
+#include "configs/config_reader.hpp"
 #include "dataset/edge_agreement.hpp"
 #include "dataset/score_peak.hpp"
 #include "dataset/turn_search.hpp"

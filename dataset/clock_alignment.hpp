@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "dataset/flight_views.hpp"
 
 namespace alight {

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// XXH3 (128 bit) as 32 hexadecimal digits: tells that content is the same, not who made it.

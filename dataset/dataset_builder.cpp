@@ -9,6 +9,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "dataset/content_hash.hpp"
 #include "dataset/dataset_folder.hpp"

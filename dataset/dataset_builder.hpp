@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "configs/errors.hpp"
 #include "dataset/dataset_config.hpp"
 #include "dataset/flight_build.hpp"
 #include "dataset/sample_store.hpp"

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/shipped_files.hpp"
+#include "configs/config_reader.hpp"
 #include "dataset/content_hash.hpp"
 #include "dataset/sample_store.hpp"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "dataset/child_processes.hpp"
 #include "dataset/depth_map_builder.hpp"
 #include "dataset/log_config.hpp"

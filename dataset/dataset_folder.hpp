@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "configs/errors.hpp"
 #include "dataset/flight_record.hpp"
 #include "dataset/sample_store.hpp"
 

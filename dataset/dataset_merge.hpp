@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "configs/errors.hpp"
 #include "dataset/sample_store.hpp"
 
 namespace alight {

@@ -7,6 +7,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "configs/errors.hpp"
 #include "dataset/sample_store.hpp"
 
 namespace alight {

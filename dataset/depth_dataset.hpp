@@ -8,6 +8,7 @@
 #include <torch/data/datasets/base.h>
 #include <torch/types.h>
 
+#include "configs/errors.hpp"
 #include "dataset/sample_store.hpp"
 
 namespace alight {

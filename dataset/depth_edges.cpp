@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "dataset/messages/message_types.hpp"
 
 namespace alight {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "configs/config_reader.hpp"
 #include "geometry/crop.hpp"
 #include "geometry/frames.hpp"
 

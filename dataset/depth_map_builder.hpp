@@ -8,7 +8,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
+#include "configs/errors.hpp"
 #include "dataset/alignment.hpp"
 #include "dataset/messages/message_types.hpp"
 #include "geometry/stereo_rectification.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "configs/errors.hpp"
 #include "dataset/log_config.hpp"
 #include "dataset/messages/message_types.hpp"
 #include "geometry/rig.hpp"

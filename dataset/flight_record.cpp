@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "cli/output_folder.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "dataset/content_hash.hpp"
 #include "dataset/flight_section.hpp"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "configs/errors.hpp"
 #include "dataset/sample_store.hpp"
 
 namespace alight {

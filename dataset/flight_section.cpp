@@ -1,5 +1,7 @@
 #include "dataset/flight_section.hpp"
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 void bind(Binder& b, FlightSection::Dropped& c) {

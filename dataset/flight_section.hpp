@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "dataset/sample_store.hpp"
 
 namespace alight {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/progress_bar.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "dataset/alignment.hpp"
 #include "dataset/flight_log.hpp"

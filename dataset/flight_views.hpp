@@ -8,7 +8,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
+#include "configs/errors.hpp"
 #include "dataset/depth_edges.hpp"
 #include "dataset/log_config.hpp"
 #include "geometry/stereo_rectification.hpp"

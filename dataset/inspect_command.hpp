@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// `alight-dataset inspect`: what a bag holds, to stdout. @returns the exit code. @throws DataError

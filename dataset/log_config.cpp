@@ -1,5 +1,6 @@
 #include "dataset/log_config.hpp"
 
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {

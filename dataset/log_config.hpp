@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
+#include "configs/errors.hpp"
 #include "dataset/messages/decoders.hpp"
 #include "geometry/rig.hpp"
 

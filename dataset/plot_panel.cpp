@@ -7,7 +7,7 @@
 namespace alight {
 namespace {
 
-const cv::Scalar kInk(60, 60, 60);
+const cv::Scalar kFrameInk(60, 60, 60);
 constexpr int kMargin_px = 40;
 constexpr double kFont = 0.45;
 
@@ -25,7 +25,7 @@ PlotPanel::PlotPanel(cv::Mat picture, const std::string& title, Range x, Range y
     : picture_(std::move(picture)), x_(x), y_(y), legend_px_(picture_.cols - kMargin_px) {
   cv::rectangle(picture_, {kMargin_px, kMargin_px}, {picture_.cols - kMargin_px, picture_.rows - kMargin_px},
                 {200, 200, 200});
-  write(title, {kMargin_px, kMargin_px - 12}, kInk);
+  write(title, {kMargin_px, kMargin_px - 12}, kFrameInk);
 }
 
 void PlotPanel::line(const PlotPoints& points, const cv::Scalar& colour) {
@@ -46,11 +46,11 @@ void PlotPanel::mark(double x, const cv::Scalar& colour) {
 
 void PlotPanel::label_x(const std::string& from, const std::string& to) {
   const int below_px = picture_.rows - kMargin_px + 18;
-  write(from, {kMargin_px, below_px}, kInk);
-  write(to, {picture_.cols - kMargin_px - size_of(to).width, below_px}, kInk);
+  write(from, {kMargin_px, below_px}, kFrameInk);
+  write(to, {picture_.cols - kMargin_px - size_of(to).width, below_px}, kFrameInk);
 }
 
-void PlotPanel::label_y(const std::string& top) { write(top, {kMargin_px + 6, kMargin_px + 16}, kInk); }
+void PlotPanel::label_y(const std::string& top) { write(top, {kMargin_px + 6, kMargin_px + 16}, kFrameInk); }
 
 void PlotPanel::legend(const std::string& words, const cv::Scalar& colour) {
   constexpr int kGap_px = 16;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kScale = 2;  // a LiDAR point is one pixel: too small to see
 constexpr int kLabelHeight_px = 26;
-constexpr int kMargin_px = 6;
+constexpr int kBorder_px = 6;
 
 cv::Mat enlarged(const cv::Mat& image) {
   cv::Mat big;
@@ -72,9 +72,9 @@ cv::Mat colour_offsets(const SparseDepth& sparse, double limit_s) {
 
 cv::Mat labelled(const cv::Mat& panel, const std::string& label) {
   cv::Mat out;
-  cv::copyMakeBorder(enlarged(panel), out, kLabelHeight_px, kMargin_px, kMargin_px, kMargin_px,
+  cv::copyMakeBorder(enlarged(panel), out, kLabelHeight_px, kBorder_px, kBorder_px, kBorder_px,
                      cv::BORDER_CONSTANT, cv::Scalar::all(24));
-  cv::putText(out, label, {kMargin_px, kLabelHeight_px - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.5,
+  cv::putText(out, label, {kBorder_px, kLabelHeight_px - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.5,
               cv::Scalar::all(240), 1, cv::LINE_AA);
   return out;
 }

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "configs/errors.hpp"
 #include "geometry/projection.hpp"
 #include "geometry/stereo_rectification.hpp"
 

@@ -1,5 +1,6 @@
 #include "dataset/stamp_guard.hpp"
 
+#include <cmath>
 #include <cstdlib>
 
 namespace alight {

@@ -1,5 +1,6 @@
 #include "dataset/stereo_pairing.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "configs/errors.hpp"
 #include "geometry/camera.hpp"
 
 namespace alight {

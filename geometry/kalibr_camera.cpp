@@ -1,5 +1,6 @@
 #include "geometry/kalibr_camera.hpp"
 
+#include "configs/config_reader.hpp"
 #include "geometry/transform_form.hpp"
 
 namespace alight {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/point_timing.hpp"
 

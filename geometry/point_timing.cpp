@@ -1,5 +1,6 @@
 #include "geometry/point_timing.hpp"
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

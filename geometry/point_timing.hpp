@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 
 namespace alight {
 

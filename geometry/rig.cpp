@@ -1,5 +1,6 @@
 #include "geometry/rig.hpp"
 
+#include "configs/config_reader.hpp"
 #include "geometry/calibration_file.hpp"
 #include "geometry/kalibr_camera.hpp"
 

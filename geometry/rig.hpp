@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "configs/config_reader.hpp"
+#include "configs/errors.hpp"
 #include "geometry/camera.hpp"
 #include "geometry/point_timing.hpp"
 #include "geometry/transform_form.hpp"

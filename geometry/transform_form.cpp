@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "configs/config_reader.hpp"
 #include "geometry/crop.hpp"
 #include "geometry/frames.hpp"
 

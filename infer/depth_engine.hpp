@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "dataset/alignment.hpp"
 #include "dataset/messages/message_types.hpp"
 #include "geometry/stereo_rectification.hpp"

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 const char* name(DepthSource source) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "geometry/projection.hpp"
 #include "infer/accumulator.hpp"
 #include "infer/depth_predictor.hpp"

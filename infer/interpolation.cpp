@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "configs/config_reader.hpp"
 #include "geometry/depth_map.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/projection.hpp"

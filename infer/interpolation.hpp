@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "geometry/stereo_rectification.hpp"
 
 namespace alight {

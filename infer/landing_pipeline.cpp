@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 void bind(Binder& b, LandingConfig& c) {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "infer/depth_engine.hpp"
 #include "infer/health/health_monitor.hpp"
 #include "infer/landing/fused_selection.hpp"

@@ -17,7 +17,7 @@
 namespace alight {
 namespace {
 
-constexpr int kWarmUpRuns = 3;
+constexpr int kUntimedRuns = 3;
 constexpr double kPointShare = 0.05;  // of the pixels, what 0.1 s of a Livox Mid-40 brings
 
 using Tensors = std::vector<torch::Tensor>;
@@ -89,7 +89,7 @@ using Passes = std::vector<std::pair<const char*, std::function<void()>>>;
 
 StageStatistics time_alternately(const Passes& passes, int runs) {
   StageStatistics stages;
-  for (int run = -kWarmUpRuns; run < runs; ++run) {
+  for (int run = -kUntimedRuns; run < runs; ++run) {
     StageTimes times_ms;
     for (const auto& [name, pass] : passes) {
       const StageTimer timer(times_ms, name);

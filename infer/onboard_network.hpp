@@ -5,6 +5,7 @@
 
 #include <torch/torch.h>
 
+#include "configs/errors.hpp"
 #include "infer/network_config.hpp"
 #include "models/depth_completion_net.hpp"
 #include "models/split_decoder.hpp"

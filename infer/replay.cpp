@@ -9,6 +9,7 @@
 
 #include "cli/output_folder.hpp"
 #include "cli/progress_bar.hpp"
+#include "configs/config_reader.hpp"
 #include "infer/looped_log.hpp"
 #include "infer/overlay.hpp"
 

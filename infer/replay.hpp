@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "dataset/flight_log.hpp"
 #include "infer/autopilot/autopilot_config.hpp"
 #include "infer/landing_pipeline.hpp"

@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "configs/config_reader.hpp"
 #include "infer/ssim.hpp"
 
 namespace alight {

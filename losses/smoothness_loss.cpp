@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "configs/config_reader.hpp"
 #include "losses/masked_mean.hpp"
 
 namespace alight {

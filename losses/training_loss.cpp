@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "configs/config_reader.hpp"
 #include "losses/ratio_loss.hpp"
 
 namespace alight {

@@ -7,6 +7,7 @@
 #include <torch/serialize.h>
 
 #include "cli/output_folder.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {

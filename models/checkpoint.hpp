@@ -8,6 +8,7 @@
 
 #include <torch/torch.h>
 
+#include "configs/errors.hpp"
 #include "models/depth_completion_net.hpp"
 
 namespace alight {

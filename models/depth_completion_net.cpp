@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "configs/config_reader.hpp"
 #include "models/sparse_fill.hpp"
 #include "models/stereo_cue.hpp"
 

@@ -6,7 +6,8 @@
 
 #include <torch/torch.h>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
+#include "configs/errors.hpp"
 #include "geometry/depth_map.hpp"
 #include "models/convolution.hpp"
 #include "models/resnet_encoder.hpp"

@@ -4,6 +4,8 @@
 
 #include <torch/torch.h>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// The device that `name` (auto | cpu | cuda | cuda:N) means on this machine; `auto` takes CUDA where there is one. Where

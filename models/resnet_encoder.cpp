@@ -9,7 +9,7 @@
 namespace alight {
 namespace {
 
-constexpr std::size_t kStages = 4;
+constexpr std::size_t kEncoderStages = 4;
 constexpr std::int64_t kLargestGroupCount = 8;
 
 /// torch::nn::GroupNorm on contiguous memory: the channels-last kernel of LibTorch 1.13 writes out of bounds.
@@ -83,10 +83,10 @@ torch::Tensor BasicBlockImpl::forward(const torch::Tensor& x) {
 ResnetEncoderImpl::ResnetEncoderImpl(int in_channels, const std::vector<int>& widths, Stem stem,
                                      Normalization normalization)
     : stem_kind_(stem) {
-  if (widths.size() != kStages)
+  if (widths.size() != kEncoderStages)
     throw std::invalid_argument("ResnetEncoder: expected the widths of four stages");
   stem_ = register_module("stem", make_stem(in_channels, widths[0], stem, normalization));
-  for (std::size_t i = 0; i < kStages; ++i) {
+  for (std::size_t i = 0; i < kEncoderStages; ++i) {
     const int before = i == 0 ? widths[0] : widths[i - 1];
     const std::string name = "stage" + std::to_string(i + 1);
     stages_.push_back(register_module(name, stage(before, widths[i], i == 0 ? 1 : 2, normalization)));

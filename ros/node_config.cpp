@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cli/shipped_files.hpp"
+#include "configs/config_reader.hpp"
 
 namespace alight {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <ros/node_handle.h>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "infer/onboard/mode_switch.hpp"
 #include "infer/replay.hpp"
 

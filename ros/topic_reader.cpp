@@ -13,8 +13,8 @@ namespace alight {
 namespace {
 
 // What may wait for this thread: an image is large and soon out of date, the rest is small.
-constexpr std::uint32_t kQueuedImages = 10;
-constexpr std::uint32_t kQueuedOthers = 1000;
+constexpr std::uint32_t kReceivedImages = 10;
+constexpr std::uint32_t kReceivedOthers = 1000;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void TopicReader::subscribe(Input& input) {
       take(input, topic, event);
     };
     input.subscribers.push_back(
-        node_.subscribe<topic_tools::ShapeShifter>(topic, image ? kQueuedImages : kQueuedOthers, callback,
+        node_.subscribe<topic_tools::ShapeShifter>(topic, image ? kReceivedImages : kReceivedOthers, callback,
                                                    ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cli/shipped_files.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 #include "sim/counter_random.hpp"
@@ -150,10 +151,10 @@ std::vector<Eigen::Isometry3d> board_poses(const BoardSceneConfig& config, const
 
 World board_world(const PrintedBoard& board, const Eigen::Isometry3d& T_world_board) {
   constexpr float kGround_m = 200;
-  constexpr std::array<Material, 3> kMaterials = {Material::kGrass, Material::kBoardWhite,
-                                                  Material::kBoardBlack};
-  std::vector<Surface> surfaces(kMaterials.size());
-  for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].material = kMaterials[i];
+  constexpr std::array<Material, 3> kBoardMaterials = {Material::kGrass, Material::kBoardWhite,
+                                                       Material::kBoardBlack};
+  std::vector<Surface> surfaces(kBoardMaterials.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].material = kBoardMaterials[i];
   TriangleMesh mesh;
   mesh.add_quad({-kGround_m, -kGround_m, 0}, {kGround_m, -kGround_m, 0}, {kGround_m, kGround_m, 0},
                 {-kGround_m, kGround_m, 0}, 0);

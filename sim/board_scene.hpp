@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "geometry/rig.hpp"
 #include "geometry/stereo_rectification.hpp"
 #include "sim/renderer.hpp"

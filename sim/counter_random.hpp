@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "sim/random.hpp"
+
 namespace alight::sim {
 
 /// What a random number is for; streams of one seed are independent of each other.
@@ -59,7 +61,6 @@ class CounterRandom {
 
   /// Standard normal (Box-Muller over the halves of one number).
   double normal(std::uint64_t counter) const {
-    constexpr double kTwoPi = 6.283185307179586;
     const std::uint64_t value = bits(counter);
     const double radius = (static_cast<double>(value >> 32) + 0.5) * 0x1p-32;
     const double angle = kTwoPi * static_cast<double>(value & 0xFFFFFFFFU) * 0x1p-32;

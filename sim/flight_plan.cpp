@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "sim/counter_random.hpp"
 

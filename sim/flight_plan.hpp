@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
+#include "configs/errors.hpp"
 #include "sim/flight_path.hpp"
 #include "sim/surface_truth.hpp"
 

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "configs/errors.hpp"
+
 namespace alight::sim {
 
 /// Landing sites of a flight, held against its truth.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight::sim {
@@ -15,7 +16,6 @@ Eigen::Vector3d limited(const Eigen::Vector3d& v, double limit) {
 }
 
 Eigen::Vector3d drawn_wind(const CounterRandom& random, double wind_mps) {
-  constexpr double kTwoPi = 6.283185307179586;
   const double speed_mps = random.uniform(0, 0, wind_mps);
   const double from_rad = random.uniform(1, 0, kTwoPi);
   return {speed_mps * std::cos(from_rad), speed_mps * std::sin(from_rad), 0};

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "sim/counter_random.hpp"
 #include "sim/motion.hpp"
 

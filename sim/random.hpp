@@ -5,6 +5,9 @@
 
 namespace alight::sim {
 
+/// A full turn, in radians.
+inline constexpr double kTwoPi = 6.283185307179586;
+
 /// Bits that look random in all positions (Wellons' "lowbias32" mixer).
 constexpr std::uint32_t mix_bits(std::uint32_t x) {
   x ^= x >> 16U;

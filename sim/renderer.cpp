@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "configs/config_reader.hpp"
 #include "sim/parallel_rows.hpp"
 #include "sim/ray_scene.hpp"
 #include "sim/shading.hpp"

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "geometry/camera.hpp"
 #include "sim/world.hpp"
 

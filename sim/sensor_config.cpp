@@ -1,5 +1,7 @@
 #include "sim/sensor_config.hpp"
 
+#include "configs/config_reader.hpp"
+
 namespace alight::sim {
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 
 namespace alight::sim {
 

@@ -8,7 +8,7 @@ namespace alight::sim {
 namespace {
 
 using Eigen::Vector3f;
-constexpr float kTwoPi = 6.28318530718F;
+constexpr float kTwoPif = 6.28318530718F;
 constexpr float kBuried_m = 0.4F;  // strips reach below the ground, so that bumps leave no gap under them
 
 void set_smooth_normals(TriangleMesh& mesh) {
@@ -87,7 +87,7 @@ void add_column(TriangleMesh& mesh, const Vector3f& a, const Vector3f& b, float 
   const Vector3f x = axis.unitOrthogonal();
   const Vector3f y = axis.cross(x);
   const auto rim = [&](const Vector3f& centre, float radius_m, int i) {
-    const float angle = kTwoPi * static_cast<float>(i) / static_cast<float>(sides);
+    const float angle = kTwoPif * static_cast<float>(i) / static_cast<float>(sides);
     return Vector3f(centre + radius_m * (std::cos(angle) * x + std::sin(angle) * y));
   };
   for (int i = 0; i < sides; ++i) {

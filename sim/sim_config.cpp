@@ -4,6 +4,8 @@
 #include <cctype>
 #include <set>
 
+#include "configs/config_reader.hpp"
+
 namespace alight::sim {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "sim/flight_plan.hpp"
 #include "sim/renderer.hpp"
 #include "sim/sensor_config.hpp"

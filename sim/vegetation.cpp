@@ -8,7 +8,6 @@ namespace alight::sim {
 namespace {
 
 using Eigen::Vector3f;
-constexpr double kTwoPi = 6.283185307179586;
 
 Vector3f random_direction(Random& random) {
   const double z = random.uniform(-1, 1);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "sim/random.hpp"
 #include "sim/world_builder.hpp"

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "sim/hardship.hpp"
 #include "sim/mover.hpp"
 #include "sim/terrain.hpp"

@@ -7,10 +7,6 @@
 #include "sim/shapes.hpp"
 
 namespace alight::sim {
-namespace {
-constexpr double kTwoPi = 6.283185307179586;
-}  // namespace
-
 WorldBuilder::WorldBuilder(const WorldConfig& config)
     : config_(config), look_(parameters(config.look)), plan_(config.size_m) {
   yaw_rad_ = stream(2).uniform(0, kTwoPi);

@@ -7,9 +7,7 @@
 #include "sim/world_builder.hpp"
 
 namespace alight::sim {
-namespace {
-constexpr double kTwoPi = 6.283185307179586;
-}
+namespace {}
 
 void WorldBuilder::add_hardships() {
   if (config_.hard.has(Hardship::kWires)) string_wires();

@@ -9,9 +9,7 @@
 #include "sim/world_builder.hpp"
 
 namespace alight::sim {
-namespace {
-constexpr double kTwoPi = 6.283185307179586;
-}
+namespace {}
 
 void WorldBuilder::raise_buildings() {
   Random random = stream(20);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "configs/config_reader.hpp"
 #include "train/batch_geometry.hpp"
 
 namespace alight {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "train/batch.hpp"
 #include "train/draw_key.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <torch/torch.h>
 
+#include "configs/errors.hpp"
 #include "train/process_place.hpp"
 
 namespace alight {

@@ -6,6 +6,8 @@
 #include <ATen/autocast_mode.h>
 #include <torch/version.h>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 namespace {
 

@@ -3,19 +3,21 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 namespace {
 
 /// What is drawn for one sample.
-struct Lot {
+struct DensityLot {
   bool lidar, image, right, height, window;
   double share, begin_s, end_s;
 };
 
-Lot draw(const DensitySamplingConfig& c, torch::Generator& generator) {
+DensityLot draw(const DensitySamplingConfig& c, torch::Generator& generator) {
   const torch::Tensor lots = torch::rand({8}, generator, torch::kFloat64);
   const auto u = [&](std::int64_t i) { return lots[i].item<double>(); };
-  Lot lot{};
+  DensityLot lot{};
   lot.lidar = u(0) >= c.no_lidar_probability;
   lot.share = c.min_share + (c.max_share - c.min_share) * u(1);
   lot.image = !(lot.lidar && u(2) < c.no_image_probability);
@@ -27,7 +29,7 @@ Lot draw(const DensitySamplingConfig& c, torch::Generator& generator) {
   return lot;
 }
 
-torch::Tensor feed(const torch::Tensor& sparse_m, const torch::Tensor& offset_s, const Lot& lot,
+torch::Tensor feed(const torch::Tensor& sparse_m, const torch::Tensor& offset_s, const DensityLot& lot,
                    torch::Generator& generator) {
   if (!lot.lidar) return torch::zeros_like(sparse_m);
   if (lot.window)
@@ -80,13 +82,13 @@ NetworkInput sample_density(const torch::Tensor& image, const torch::Tensor& rig
     throw std::invalid_argument("sample_density: expected images [B,3,H,W], sparse and offset [B,1,H,W]");
   }
   torch::Generator of_batch = at::detail::createCPUGenerator(mixed_seed(key.seed, key.step, 0));
-  const Lot lot_of_batch = draw(config, of_batch);
+  const DensityLot lot_of_batch = draw(config, of_batch);
   NetworkInput input{image.clone(), right.clone(), torch::empty_like(sparse_m),
                      torch::ones({image.size(0)}, image.options().dtype(torch::kBool))};
   for (std::int64_t i = 0; i < image.size(0); ++i) {
     torch::Generator of_sample =
         at::detail::createCPUGenerator(mixed_seed(key.seed, key.step, key.first + i + 1));
-    const Lot lot = config.draw == DensityDraw::kBatch ? lot_of_batch : draw(config, of_sample);
+    const DensityLot lot = config.draw == DensityDraw::kBatch ? lot_of_batch : draw(config, of_sample);
     input.sparse_m[i].copy_(feed(sparse_m[i], offset_s[i], lot, of_sample));
     if (!lot.image) input.image[i].zero_();
     if (!lot.right) input.right[i].zero_();

@@ -10,6 +10,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 class WireMessage;

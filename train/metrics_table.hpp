@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// A run's metrics.csv: one row an epoch, all numbers.

@@ -1,5 +1,7 @@
 #include "train/occlusion_filter.hpp"
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 void bind(Binder& b, OcclusionFilterConfig& c) {

@@ -2,7 +2,7 @@
 
 #include <torch/torch.h>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 
 namespace alight {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 void bind(Binder& b, OptimizerConfig& c) {

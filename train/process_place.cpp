@@ -11,16 +11,16 @@
 namespace alight {
 namespace {
 
-struct Variable {
+struct PlaceVariable {
   const char* name;
   const char* of_slurm;  // what stands for it; null: nothing does
 };
-constexpr Variable kRank{"RANK", "SLURM_PROCID"};
-constexpr Variable kSize{"WORLD_SIZE", "SLURM_NTASKS"};
-constexpr Variable kLocalRank{"LOCAL_RANK", "SLURM_LOCALID"};
-constexpr Variable kAddress{"MASTER_ADDR", nullptr};
-constexpr Variable kPort{"MASTER_PORT", nullptr};
-constexpr std::array<Variable, 5> kAll{kRank, kSize, kAddress, kPort, kLocalRank};
+constexpr PlaceVariable kRank{"RANK", "SLURM_PROCID"};
+constexpr PlaceVariable kSize{"WORLD_SIZE", "SLURM_NTASKS"};
+constexpr PlaceVariable kLocalRank{"LOCAL_RANK", "SLURM_LOCALID"};
+constexpr PlaceVariable kAddress{"MASTER_ADDR", nullptr};
+constexpr PlaceVariable kPort{"MASTER_PORT", nullptr};
+constexpr std::array<PlaceVariable, 5> kAll{kRank, kSize, kAddress, kPort, kLocalRank};
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -32,7 +32,7 @@ struct Found {
   std::string name, value;
 };
 
-Found find(const Variable& variable, bool slurm) {
+Found find(const PlaceVariable& variable, bool slurm) {
   Found found{variable.name, environment(variable.name)};
   if (found.value.empty() && slurm && variable.of_slurm != nullptr)
     found = {variable.of_slurm, environment(variable.of_slurm)};
@@ -51,7 +51,7 @@ int number(const Found& found, int min, int max) {
 
 std::string missing(bool slurm) {
   std::string names;
-  for (const Variable& variable : kAll) {
+  for (const PlaceVariable& variable : kAll) {
     if (find(variable, slurm).value.empty())
       names += (names.empty() ? "" : ", ") + std::string(variable.name);
   }
@@ -74,7 +74,8 @@ bool ProcessPlace::on_loopback() const {
 }
 
 ProcessPlace read_process_place() {
-  if (std::all_of(kAll.begin(), kAll.end(), [](const Variable& v) { return environment(v.name).empty(); }))
+  if (std::all_of(kAll.begin(), kAll.end(),
+                  [](const PlaceVariable& v) { return environment(v.name).empty(); }))
     return {};
   const bool slurm = !environment(kAddress.name).empty() && environment(kRank.name).empty() &&
                      environment(kSize.name).empty();

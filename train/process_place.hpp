@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// A process's place among those that train together.

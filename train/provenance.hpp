@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// The commit that this program was built from, 40 hex digits; "-dirty" follows where files of it were changed;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// The folder of a training run: config.yaml, provenance.yaml (commit and data), metrics.csv, TensorBoard events, last.pt,

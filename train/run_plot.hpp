@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// Colours that can be told apart in one figure.

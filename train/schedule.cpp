@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 namespace {
 

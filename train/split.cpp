@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <map>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 namespace {
 

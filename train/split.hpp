@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
+#include "configs/errors.hpp"
 
 namespace alight {
 

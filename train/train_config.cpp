@@ -1,5 +1,7 @@
 #include "train/train_config.hpp"
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 void bind(Binder& b, TrainingLoopConfig& c) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "losses/training_loss.hpp"
 #include "models/depth_completion_net.hpp"
 #include "train/augmentation.hpp"

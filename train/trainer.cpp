@@ -7,6 +7,7 @@
 
 #include "cli/progress_bar.hpp"
 #include "cli/shipped_files.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "train/network_pass.hpp"
 #include "train/sync_batch_norm.hpp"

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "configs/config_reader.hpp"
 #include "models/altitude_plane.hpp"
 #include "models/depth_conversion.hpp"
 #include "models/sparse_fill.hpp"

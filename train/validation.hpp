@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "models/depth_completion_net.hpp"
 #include "train/error_meter.hpp"
 #include "train/sample_source.hpp"

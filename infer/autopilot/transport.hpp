@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// Where an autopilot is: `udp:host:port` (an IPv6 address in brackets) or `serial:device:baud`.

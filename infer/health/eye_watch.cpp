@@ -1,10 +1,11 @@
 #include "infer/health/eye_watch.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <numeric>
 #include <utility>
+
+#include "cli/text_format.hpp"
 
 namespace alight {
 namespace {
@@ -35,13 +36,6 @@ double mean_difference(const std::vector<std::uint8_t>& a, const std::vector<std
   return static_cast<double>(sum) / static_cast<double>(std::max<std::size_t>(1, a.size()));
 }
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 }  // namespace
 
 EyeWatch::EyeWatch(const HealthConfig& config, const std::string& sensor)
@@ -65,10 +59,10 @@ bool EyeWatch::add(std::int64_t t_ns, const cv::Mat& image, const std::optional<
   const bool frozen = is_frozen(sample, p_world) && !black && !white;
   last_sample_ = std::move(sample);
   black_.look(config_, t_ns, black,
-              format("mean grey level %.1f, at least %.1f expected", level, config_.eye.black_level));
+              format_text("mean grey level %.1f, at least %.1f expected", level, config_.eye.black_level));
   over_exposed_.look(config_, t_ns, white,
-                     format("%.0f %% of the pixels are saturated, at most %.0f %% expected", 100 * share,
-                            100 * config_.eye.max_saturated_share));
+                     format_text("%.0f %% of the pixels are saturated, at most %.0f %% expected", 100 * share,
+                                 100 * config_.eye.max_saturated_share));
   frozen_.look(config_, t_ns, frozen, "the same picture again and again");
   return !black && !white && !frozen && usable();
 }

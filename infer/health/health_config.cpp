@@ -1,5 +1,7 @@
 #include "infer/health/health_config.hpp"
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 void bind(Binder& b, EyeHealthConfig& c) {

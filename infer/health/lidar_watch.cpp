@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
+#include "cli/text_format.hpp"
 #include "dataset/alignment.hpp"
 #include "geometry/frames.hpp"
 
@@ -16,13 +16,6 @@ constexpr std::size_t kUsualPackets = 20;
 constexpr std::size_t kComparedEchoes = 2000;
 const Eigen::Vector3d kMirrors[] = {{1, -1, 1}, {1, 1, -1}, {1, -1, -1}};  // left-right, front-back, both
 constexpr std::int64_t kNeighbours_ns = 50'000;  // further apart in time is further apart in angle
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 template <class Value>
 Value middle(std::vector<Value> values) {
@@ -63,7 +56,7 @@ void LidarWatch::count_points(std::int64_t t_ns, const LidarPacket& packet) {
   const double usual =
       point_counts_.empty() ? count : middle(std::vector<double>(point_counts_.begin(), point_counts_.end()));
   const bool few = count < config_.lidar.min_point_share * usual;
-  partial_.look(config_, t_ns, few, format("%.0f points in a packet, usually %.0f", count, usual));
+  partial_.look(config_, t_ns, few, format_text("%.0f points in a packet, usually %.0f", count, usual));
   // What is too little does not become the usual.
   if (!few) point_counts_.push_back(count);
   if (point_counts_.size() > kUsualPackets) point_counts_.pop_front();
@@ -86,8 +79,8 @@ bool LidarWatch::noisy(std::int64_t t_ns, const LidarPacket& packet) {
   const double share = static_cast<double>(spikes) / static_cast<double>(returns.size());
   const bool noise = share > config_.lidar.max_spike_share;
   noise_.look(config_, t_ns, noise,
-              format("%.1f %% of the echoes stand alone in the air, at most %.1f %% expected", 100 * share,
-                     100 * config_.lidar.max_spike_share));
+              format_text("%.1f %% of the echoes stand alone in the air, at most %.1f %% expected",
+                          100 * share, 100 * config_.lidar.max_spike_share));
   return noise;
 }
 
@@ -165,7 +158,7 @@ bool LidarWatch::contradicts_ground(std::int64_t t_ns, const LidarPacket& packet
   const bool mirrored = !doubted && common && fit.misfit_m >= limits.mirror_misfit_m &&
                         mirror_fits(packet, trajectory, fit.misfit_m);
   const bool strange = !mirrored && (common ? fit.misfit_m > limits.max_misfit_m : doubted);
-  const std::string reason = format("%.2f m off the ground of the second before", fit.misfit_m);
+  const std::string reason = format_text("%.2f m off the ground of the second before", fit.misfit_m);
   mirrored_.look(config_, t_ns, mirrored, reason + "; mirrored it fits");
   if (!mirrored_.suspected()) mirrors_fitted_ = {};
   strange_.look(config_, t_ns, strange, reason);

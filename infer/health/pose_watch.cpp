@@ -1,8 +1,8 @@
 #include "infer/health/pose_watch.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "cli/text_format.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -12,13 +12,6 @@ constexpr double kLongestGap_s = 0.1;    // as the engine's: no pose is known in
 constexpr double kVelocityOver_s = 0.2;  // long enough for noise, short enough for a multirotor's turns
 constexpr double kStepOver_s = 0.1;      // limits hold for steps as short as this and grow with longer ones
 constexpr double kTurnOver_s = 0.02;
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 }  // namespace
 
@@ -48,13 +41,13 @@ bool PoseWatch::add(const AttitudeSample& sample) {
     const double dt_s = to_seconds(sample.t_ns - attitude_->t_ns);
     jump = turn_deg > config_.pose.max_turn_deg * std::max(1.0, dt_s / kTurnOver_s);
     same = attitude_->q_world_imu.coeffs() == sample.q_world_imu.coeffs();
-    const std::string reason = format("turned by %.1f deg in %.3f s", turn_deg, dt_s);
+    const std::string reason = format_text("turned by %.1f deg in %.3f s", turn_deg, dt_s);
     if (jump) attitude_jump_.raise(sample.t_ns, reason);
   }
   if (!jump) attitude_jump_.look(config_, sample.t_ns, false, "");
   const double same_s = same_attitude_.add(sample.t_ns, same);
   attitude_frozen_.look(config_, sample.t_ns, same_s > config_.pose.frozen_s,
-                        format("the same value for %.2f s", same_s));
+                        format_text("the same value for %.2f s", same_s));
   attitude_ = sample;
   return jump;
 }
@@ -75,15 +68,15 @@ bool PoseWatch::add(const PositionSample& sample) {
     jump = off_m > config_.pose.max_position_step_m * std::max(1.0, dt_s / kStepOver_s);
     same = p_world == last.p_world;
     if (jump) {
-      position_jump_.raise(sample.t_ns, format("%.2f m off the way so far, at most %.2f m expected", off_m,
-                                               config_.pose.max_position_step_m));
+      position_jump_.raise(sample.t_ns, format_text("%.2f m off the way so far, at most %.2f m expected",
+                                                    off_m, config_.pose.max_position_step_m));
       places_.clear();
     }
   }
   if (!jump) position_jump_.look(config_, sample.t_ns, false, "");
   const double same_s = same_position_.add(sample.t_ns, same);
   position_frozen_.look(config_, sample.t_ns, same_s > config_.pose.frozen_s,
-                        format("the same value for %.2f s", same_s));
+                        format_text("the same value for %.2f s", same_s));
   places_.push_back({sample.t_ns, p_world});
   while (to_seconds(sample.t_ns - places_.front().t_ns) > kVelocityOver_s) places_.pop_front();
   return jump;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "infer/landing/elevation_raster.hpp"
 #include "infer/landing/lidar_returns.hpp"
 #include "infer/landing/plane_fit.hpp"

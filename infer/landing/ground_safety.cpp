@@ -7,10 +7,12 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 namespace {
 
-cv::Mat disc(int reach) {
+cv::Mat disc_mask(int reach) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
 }
 
@@ -104,7 +106,8 @@ GroundMap judge_ground(ElevationRaster raster, GroundShape shape, const cv::Mat&
   cv::Mat hazard = ground.shape.known & ~flat;
   if (!hazards.empty()) hazard |= hazards;
   const int guard = cells(safety.guard_m, ground.raster.cell_m);
-  if (guard > 0) cv::dilate(hazard, hazard, disc(guard), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  if (guard > 0)
+    cv::dilate(hazard, hazard, disc_mask(guard), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   ground.safe = flat & ~hazard;
   if (!ground.raster.column_seen.empty()) ground.safe &= ground.raster.column_seen;
   ground.radius_m = free_radius_m(ground.safe, ground.raster.cell_m);

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "infer/landing/elevation_raster.hpp"
 #include "infer/landing/plane_fit.hpp"
 

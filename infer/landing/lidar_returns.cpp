@@ -13,7 +13,7 @@ namespace alight {
 namespace {
 
 /// What the points of a row share on their way into the world.
-struct RowRays {
+struct ReturnRays {
   double ray_y;  // at unit depth
   double T_world_camera[3][4];
   double cell_m;
@@ -27,7 +27,7 @@ constexpr std::int32_t kNowhere = std::numeric_limits<std::int32_t>::max();
 /// Cells of points, counted from the camera's own, and their heights; column kNowhere where one lies out of reach.
 /// @param ray_x at unit depth
 ALIGHT_WIDE_LOOPS void cells_of_row(std::size_t count, const double* z, const double* ray_x,
-                                    const RowRays& rays, std::int32_t* __restrict column,
+                                    const ReturnRays& rays, std::int32_t* __restrict column,
                                     std::int32_t* __restrict row, float* __restrict height_m) {
   const auto& T = rays.T_world_camera;
   const double xx = T[0][0], xy = T[0][1], xz = T[0][2], x0 = T[0][3];
@@ -66,7 +66,7 @@ struct CellPoints {
 
 /// @param rays what the rows share; its ray_y is set for each
 /// @param limit off the optical axis, at unit depth
-CellPoints points_of(const cv::Mat& sparse_m, const PinholeIntrinsics& intrinsics, RowRays rays,
+CellPoints points_of(const cv::Mat& sparse_m, const PinholeIntrinsics& intrinsics, ReturnRays rays,
                      double limit) {
   const int width = sparse_m.cols;
   Eigen::ArrayXd ray_x(width);
@@ -97,7 +97,7 @@ CellPoints points_of(const cv::Mat& sparse_m, const PinholeIntrinsics& intrinsic
   return points;
 }
 
-struct Cell {
+struct ReturnCell {
   float count = 0;
   float mean_m = 0;
   float top_m = 0;
@@ -128,7 +128,7 @@ LidarReturns lidar_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& int
   if (sparse_m.type() != CV_32FC1 || sparse_m.size() != intrinsics.size())
     throw std::invalid_argument("lidar_returns: the map must be CV_32FC1 of the camera's size");
   LidarReturns out;
-  RowRays rays{};
+  ReturnRays rays{};
   Eigen::Matrix<double, 3, 4, Eigen::RowMajor>::Map(&rays.T_world_camera[0][0]) =
       T_world_camera.matrix().topRows<3>();
   rays.cell_m = cell_m;
@@ -150,7 +150,7 @@ LidarReturns lidar_returns(const cv::Mat& sparse_m, const PinholeIntrinsics& int
   out.first_column = static_cast<std::int64_t>(rays.column0) + low.x;
   out.first_row = static_cast<std::int64_t>(rays.row0) + low.y;
   const cv::Size size(high.x - low.x + 1, high.y - low.y + 1);
-  std::vector<Cell> cells(static_cast<std::size_t>(size.area()));
+  std::vector<ReturnCell> cells(static_cast<std::size_t>(size.area()));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i] == kNowhere) continue;
     cells[static_cast<std::size_t>((rows[i] - low.y) * size.width + columns[i] - low.x)].add(

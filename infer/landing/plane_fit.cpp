@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "configs/config_reader.hpp"
 #include "geometry/wide_loops.hpp"
 
 namespace alight {
@@ -111,7 +112,7 @@ void residuals(const cv::Mat& top_m, const cv::Mat& bottom_m, int row, int begin
 }
 
 /// Cells without a plane of their own take the mean of those around them that have one; 0 where there is none.
-void extend(const cv::Mat& known, int reach, cv::Mat& gradient) {
+void extend_gradient(const cv::Mat& known, int reach, cv::Mat& gradient) {
   cv::Mat weight;
   known.convertTo(weight, CV_32FC1, 1 / 255.0);
   gradient = gradient.mul(weight);
@@ -154,8 +155,8 @@ GroundShape fit_planes(const ElevationRaster& raster, const PlaneFitConfig& conf
   const cv::Scalar level_m = cv::mean(raster.mean_m, raster.known);
   const cv::Mat mean_m = raster.mean_m - level_m;
   Planes planes = planes_through(mean_m, offsets, reach);
-  extend(shape.known, reach, planes.east);
-  extend(shape.known, reach, planes.north);
+  extend_gradient(shape.known, reach, planes.east);
+  extend_gradient(shape.known, reach, planes.north);
   const cv::Mat centre_m = mean_m - planes.east.mul(raster.east_m) - planes.north.mul(raster.north_m);
   planes = planes_through(centre_m, offsets, reach);
   const cv::Mat top_m = raster.top_m - level_m;

@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 void bind(Binder& b, SiteRankingConfig& c) {

@@ -10,6 +10,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
 #include "infer/landing/derivative_safety.hpp"

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
 

@@ -8,6 +8,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "configs/config_reader.hpp"
 #include "geometry/wide_loops.hpp"
 
 namespace alight {

@@ -1,5 +1,7 @@
 #include "infer/mission/mission_config.hpp"
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 
 void bind(Binder& b, MissionConfig& c) {

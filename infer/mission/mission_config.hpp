@@ -1,6 +1,6 @@
 #pragma once
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 
 namespace alight {
 

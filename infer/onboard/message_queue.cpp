@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "dataset/messages/message_types.hpp"
 #include "infer/onboard/steady_time.hpp"
 

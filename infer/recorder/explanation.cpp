@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "cli/output_folder.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "geometry/depth_map.hpp"
 #include "geometry/frames.hpp"

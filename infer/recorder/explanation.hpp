@@ -6,6 +6,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// Why there was a landing site at a moment, or none.

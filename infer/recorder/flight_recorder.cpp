@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <spdlog/spdlog.h>
 
+#include "configs/config_reader.hpp"
 #include "geometry/depth_map.hpp"
 #include "infer/result_writer.hpp"
 

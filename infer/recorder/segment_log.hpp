@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// What a record of a flight holds.

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// Where a server listens.

@@ -1,6 +1,7 @@
 #include "infer/web/state_json.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include <nlohmann/json.hpp>

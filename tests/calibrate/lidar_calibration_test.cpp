@@ -1,5 +1,6 @@
 #include "calibrate/lidar_calibration.hpp"
 
+#include <cstdio>
 #include <string>
 
 #include <rosbag/bag.h>

@@ -1,5 +1,6 @@
 #include "calibrate/stereo_calibration.hpp"
 
+#include <cstdio>
 #include <filesystem>
 
 #include <opencv2/calib3d.hpp>

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "closed_loop/campaign_report.hpp"
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 
 namespace alight::closed_loop {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "dataset/dataset_builder.hpp"
 #include "test_flight.hpp"
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "geometry/depth_map.hpp"
 #include "test_flight.hpp"

@@ -14,17 +14,17 @@
 namespace alight::testing {
 namespace {
 
-struct Sample {
+struct MessageSample {
   LogRole role;
   std::string type;
   std::vector<std::uint8_t> bytes;
 };
 
 /// One message of every row of the table, but for the pictures, which have their own tests.
-std::vector<Sample> one_of_every_row() {
+std::vector<MessageSample> one_of_every_row() {
   sensor_msgs::Imu imu;
   imu.orientation.w = 1;
-  std::vector<Sample> samples = {
+  std::vector<MessageSample> samples = {
       {LogRole::kImage, "sensor_msgs/Image", bytes_of(image_message(kStart_ns, 5, 3, "bgr8"))},
       {LogRole::kLidar, "livox_ros_driver/CustomMsg", bytes_of(livox_message(kStart_ns, 4))},
       {LogRole::kLidar, "livox_ros_driver2/CustomMsg", bytes_of(livox_message(kStart_ns, 4))},

@@ -15,7 +15,7 @@ using sensor_msgs::PointField;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kMillisecond = 1'000'000;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 LidarPacket packet_of(const sensor_msgs::PointCloud2& message, const PointTiming& points = {},
@@ -197,9 +197,9 @@ TEST(PointTimes, OfAClockOfItsOwnOnlyDifferencesCount) {
 TEST(PointTimes, WithTheReceiveTimeAsStampAbsoluteOnesFollowIt) {
   const double start_ns = static_cast<double>(kStart_ns);
   const auto message = timed("timestamp", PointField::FLOAT64, {start_ns, start_ns + 65'536'000});
-  const LidarPacket packet = packet_of(message, {}, StampSource::kReceive, kStart_ns + 3 * kMillisecond);
+  const LidarPacket packet = packet_of(message, {}, StampSource::kReceive, kStart_ns + 3 * kMillisecond_ns);
   EXPECT_EQ(offsets_ms(packet), (std::vector<double>{3, 68.536}));
-  EXPECT_EQ(packet.t_ns, kStart_ns + 3 * kMillisecond);
+  EXPECT_EQ(packet.t_ns, kStart_ns + 3 * kMillisecond_ns);
 }
 
 TEST(PointTimes, AStampAtTheEndMovesTheScanBack) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "decoding.hpp"
 
 namespace alight::testing {

@@ -5,7 +5,7 @@
 namespace alight {
 namespace {
 
-Sample sample_of(bool with_dense) {
+Sample picture_sample(bool with_dense) {
   Sample sample;
   sample.left = cv::Mat(20, 30, CV_8UC1, cv::Scalar(100));
   sample.sparse = SparseDepth::empty({30, 20});
@@ -16,15 +16,15 @@ Sample sample_of(bool with_dense) {
 }
 
 TEST(DrawSample, HasAPanelForEverythingThatIsThere) {
-  const cv::Mat three = draw_sample(sample_of(false), "flight 0");
-  const cv::Mat four = draw_sample(sample_of(true), "flight 0");
+  const cv::Mat three = draw_sample(picture_sample(false), "flight 0");
+  const cv::Mat four = draw_sample(picture_sample(true), "flight 0");
   EXPECT_EQ(three.type(), CV_8UC3);
   EXPECT_EQ(three.cols * 4, four.cols * 3);
   EXPECT_EQ(three.rows, four.rows);
 }
 
 TEST(DrawSample, ASampleWithoutPointsIsDrawnToo) {
-  Sample sample = sample_of(false);
+  Sample sample = picture_sample(false);
   sample.sparse = SparseDepth::empty({30, 20});
   EXPECT_FALSE(draw_sample(sample, "flight 0").empty());
 }

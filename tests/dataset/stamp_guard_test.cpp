@@ -7,16 +7,16 @@
 namespace alight::testing {
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;
+constexpr std::int64_t kGuardMillisecond = 1'000'000;
 
 /// Feeds a topic of 20 Hz; stamps lag behind the receipt by 30 ms.
 class StampGuardTest : public ::testing::Test {
  protected:
   /// The next message, its stamp and receipt late by so much. @returns whether it is usable
   bool next(std::int64_t stamp_late_ms = 0, std::int64_t receipt_late_ms = 0) {
-    now_ns_ += 50 * kMillisecond;
-    return guard_.usable(now_ns_ - 30 * kMillisecond + stamp_late_ms * kMillisecond,
-                         now_ns_ + receipt_late_ms * kMillisecond);
+    now_ns_ += 50 * kGuardMillisecond;
+    return guard_.usable(now_ns_ - 30 * kGuardMillisecond + stamp_late_ms * kGuardMillisecond,
+                         now_ns_ + receipt_late_ms * kGuardMillisecond);
   }
   StampGuard guard_;
   std::int64_t now_ns_ = kStart_ns;
@@ -42,7 +42,7 @@ TEST_F(StampGuardTest, ARecorderThatStallsChangesNothing) {
 
 TEST_F(StampGuardTest, ASensorThatPausesChangesNothing) {
   EXPECT_TRUE(next());
-  now_ns_ += 10'000 * kMillisecond;
+  now_ns_ += 10'000 * kGuardMillisecond;
   EXPECT_TRUE(next());
 }
 

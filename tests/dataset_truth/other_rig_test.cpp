@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "dataset/alignment.hpp"
 #include "dataset/dataset_builder.hpp"
 #include "dataset/flight_log.hpp"

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "models/checkpoint.hpp"
 #include "tiny_run.hpp"
 

@@ -41,7 +41,7 @@ DepthCheckInput wall(double guessed_m) {
   return input;
 }
 
-std::string mistake(const DepthCheckInput& input, const Rig& rig) {
+std::string check_mistake(const DepthCheckInput& input, const Rig& rig) {
   try {
     check_depth(input, rig, {});
   } catch (const std::exception& error) {
@@ -104,7 +104,8 @@ TEST(DepthCheck, CentresOfTheRigsImagesAreWelcomeWhenSaidSo) {
   DepthCheckInput input = wall(kDepth_m);
   const cv::Rect centre(40, 30, 80, 60);
   for (cv::Mat* map : {&input.left, &input.right, &input.depth_m}) *map = (*map)(centre).clone();
-  EXPECT_THAT(mistake(input, stereo_rig(false)), HasSubstr("80x60 pixels, the rig's cameras have 160x120"));
+  EXPECT_THAT(check_mistake(input, stereo_rig(false)),
+              HasSubstr("80x60 pixels, the rig's cameras have 160x120"));
   DepthCheckConfig config;
   config.centre_cropped = true;
   EXPECT_EQ(check_depth(input, stereo_rig(false), config).verdict, Verdict::kAccept);
@@ -113,10 +114,10 @@ TEST(DepthCheck, CentresOfTheRigsImagesAreWelcomeWhenSaidSo) {
 TEST(DepthCheck, MapsThatDoNotFitAreNamed) {
   DepthCheckInput input = wall(kDepth_m);
   input.truth_m = cv::Mat::ones(kHeight, kWidth - 1, CV_32FC1);
-  EXPECT_THAT(mistake(input, stereo_rig(false)), HasSubstr("the true depth map has 159x120 pixels"));
+  EXPECT_THAT(check_mistake(input, stereo_rig(false)), HasSubstr("the true depth map has 159x120 pixels"));
   Rig mono = stereo_rig(false);
   mono.cam1.reset();
-  EXPECT_THAT(mistake(wall(kDepth_m), mono), HasSubstr("no cam1"));
+  EXPECT_THAT(check_mistake(wall(kDepth_m), mono), HasSubstr("no cam1"));
 }
 
 }  // namespace

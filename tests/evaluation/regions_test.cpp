@@ -9,7 +9,7 @@
 namespace alight {
 namespace {
 
-cv::Mat level(double depth_m, int side_px = 48) {
+cv::Mat level_m(double depth_m, int side_px = 48) {
   return cv::Mat(side_px, side_px, CV_32FC1, cv::Scalar(depth_m));
 }
 
@@ -19,7 +19,7 @@ int count(const std::optional<SampleRegions::Pixels>& pixels) {
 }
 
 TEST(NearEdges, AStepIsSeenFromBothSidesUpToTheDistance) {
-  cv::Mat truth_m = level(20, 20);
+  cv::Mat truth_m = level_m(20, 20);
   truth_m.colRange(10, 20).setTo(21);
   RegionConfig config;
   config.edge_distance_px = 3;
@@ -31,7 +31,7 @@ TEST(NearEdges, BothThresholdsMustBeExceeded) {
   RegionConfig config;
   config.edge_distance_px = 0;
   const auto edges = [&](double from_m, double to_m) {
-    cv::Mat truth_m = level(from_m, 6);
+    cv::Mat truth_m = level_m(from_m, 6);
     truth_m.rowRange(3, 6).setTo(to_m);
     return cv::countNonZero(near_edges(truth_m, config));
   };
@@ -42,18 +42,18 @@ TEST(NearEdges, BothThresholdsMustBeExceeded) {
 }
 
 TEST(SampleRegions, FovIsTheCircleAroundTheBoresight) {
-  const SampleRegions regions(level(15), level(15), test::scene_rig(), {});
-  const auto inside = regions.pixels(Region::kInsideFov, level(0));
+  const SampleRegions regions(level_m(15), level_m(15), test::scene_rig(), {});
+  const auto inside = regions.pixels(Region::kInsideFov, level_m(0));
   const double radius_px = 40 * std::tan(19.174 * 3.14159265358979 / 180);
   EXPECT_NEAR(count(inside), 3.14159 * radius_px * radius_px, 20);
   EXPECT_NE(inside->mask.at<std::uint8_t>(24, 24), 0);
-  EXPECT_EQ(count(inside) + count(regions.pixels(Region::kOutsideFov, level(0))), 48 * 48);
+  EXPECT_EQ(count(inside) + count(regions.pixels(Region::kOutsideFov, level_m(0))), 48 * 48);
 }
 
 TEST(SampleRegions, HeldOutIsWhatWasNotFed) {
-  cv::Mat lidar_m = level(0);
+  cv::Mat lidar_m = level_m(0);
   lidar_m.rowRange(0, 2).setTo(12);
-  cv::Mat fed_m = level(0);
+  cv::Mat fed_m = level_m(0);
   fed_m.row(0).setTo(12);
   const SampleRegions regions(lidar_m, {}, test::scene_rig(), {});
   EXPECT_EQ(count(regions.pixels(Region::kAll, fed_m)), 96);
@@ -62,10 +62,10 @@ TEST(SampleRegions, HeldOutIsWhatWasNotFed) {
 
 TEST(SampleRegions, AnImageIsInTheBandOfItsMedianDepth) {
   const auto band = [](double depth_m) {
-    const SampleRegions regions(level(depth_m), level(depth_m), test::scene_rig(), {});
+    const SampleRegions regions(level_m(depth_m), level_m(depth_m), test::scene_rig(), {});
     std::string names;
     for (const Region region : {Region::kBelow10m, Region::k10To20m, Region::k20To30m, Region::kAbove30m}) {
-      if (regions.pixels(region, level(0))) names += name(region);
+      if (regions.pixels(region, level_m(0))) names += name(region);
     }
     return names;
   };
@@ -76,22 +76,22 @@ TEST(SampleRegions, AnImageIsInTheBandOfItsMedianDepth) {
 }
 
 TEST(SampleRegions, WithoutDenseTruthTheLidarJudges) {
-  cv::Mat lidar_m = level(0);
+  cv::Mat lidar_m = level_m(0);
   lidar_m.row(24).setTo(25);
   const SampleRegions regions(lidar_m, {}, test::scene_rig(), {});
-  EXPECT_EQ(count(regions.pixels(Region::kDense, level(0))), -1);
-  EXPECT_EQ(count(regions.pixels(Region::kNearEdges, level(0))), -1);
-  EXPECT_EQ(count(regions.pixels(Region::k20To30m, level(0))), 48);
-  EXPECT_GT(count(regions.pixels(Region::kInsideFov, level(0))), 0);
+  EXPECT_EQ(count(regions.pixels(Region::kDense, level_m(0))), -1);
+  EXPECT_EQ(count(regions.pixels(Region::kNearEdges, level_m(0))), -1);
+  EXPECT_EQ(count(regions.pixels(Region::k20To30m, level_m(0))), 48);
+  EXPECT_GT(count(regions.pixels(Region::kInsideFov, level_m(0))), 0);
 }
 
 TEST(SampleRegions, ASampleWithoutAnyTruthHasNoRegion) {
-  const SampleRegions regions(level(0), {}, test::scene_rig(), {});
-  for (const Region region : kRegions) EXPECT_FALSE(regions.pixels(region, level(0))) << name(region);
+  const SampleRegions regions(level_m(0), {}, test::scene_rig(), {});
+  for (const Region region : kRegions) EXPECT_FALSE(regions.pixels(region, level_m(0))) << name(region);
 }
 
 TEST(SampleRegions, MapsOfAnotherSizeAreRefused) {
-  EXPECT_THROW(SampleRegions(level(5, 47), {}, test::scene_rig(), {}), std::invalid_argument);
+  EXPECT_THROW(SampleRegions(level_m(5, 47), {}, test::scene_rig(), {}), std::invalid_argument);
 }
 
 }  // namespace

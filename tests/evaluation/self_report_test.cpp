@@ -15,8 +15,8 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-MapScores map_of(const std::string& flight, bool good, double holdout_median, Verdict stereo,
-                 Verdict holdout) {
+MapScores scored_map(const std::string& flight, bool good, double holdout_median, Verdict stereo,
+                     Verdict holdout) {
   MapScores map;
   map.flight = flight;
   map.depth_m = 15;
@@ -34,14 +34,14 @@ MapScores map_of(const std::string& flight, bool good, double holdout_median, Ve
 }
 
 /// Two good maps, two bad ones; the hold-out test is right, the stereo test abstains on one and errs on another.
-SelfReport small_report() {
+SelfReport small_self_report() {
   SelfReport report;
   report.config.good = {{0.9, 0.1, 0.01}, {0.2, 0.1, 0.01}};
   report.command = "alight-evaluate self --every 7";
-  report.maps = {map_of("a_1", true, 0.001, Verdict::kAccept, Verdict::kAccept),
-                 map_of("a_1", false, 0.1, Verdict::kAccept, Verdict::kReject),
-                 map_of("b_1", true, 0.002, Verdict::kNoEvidence, Verdict::kAccept),
-                 map_of("b_1", false, 0.2, Verdict::kReject, Verdict::kReject)};
+  report.maps = {scored_map("a_1", true, 0.001, Verdict::kAccept, Verdict::kAccept),
+                 scored_map("a_1", false, 0.1, Verdict::kAccept, Verdict::kReject),
+                 scored_map("b_1", true, 0.002, Verdict::kNoEvidence, Verdict::kAccept),
+                 scored_map("b_1", false, 0.2, Verdict::kReject, Verdict::kReject)};
   report.maps.back().origin = MapOrigin::kTooFar;
   return report;
 }
@@ -58,7 +58,7 @@ DecisionRates rates(const SelfReport& report, const std::string& title) {
 }
 
 TEST(Criteria, AreThePapersMargins) {
-  const SelfReport report = small_report();
+  const SelfReport report = small_self_report();
   const SelfEvaluationConfig& tests = report.config.image.self_evaluation;
   EXPECT_DOUBLE_EQ(criterion("paper, rule 1").score(report.maps[0], tests), 0.75 - 0.625);
   EXPECT_DOUBLE_EQ(criterion("paper, rule 2").score(report.maps[0], tests), 0.75 - 0.5 - 0.2);
@@ -67,7 +67,7 @@ TEST(Criteria, AreThePapersMargins) {
 }
 
 TEST(Criteria, MissingScoresAreNoEvidence) {
-  MapScores map = small_report().maps[0];
+  MapScores map = small_self_report().maps[0];
   map.stereo.sim_d.reset();
   map.holdout.points = 99;
   const SelfEvaluationConfig tests;
@@ -81,7 +81,7 @@ TEST(Criteria, MissingScoresAreNoEvidence) {
 }
 
 TEST(Decisions, RatesOfAcceptedGoodAndBadMaps) {
-  const SelfReport report = small_report();
+  const SelfReport report = small_self_report();
   const DecisionRates stereo = rates(report, "stereo");
   EXPECT_EQ(stereo.recall, 0.5);
   EXPECT_EQ(stereo.false_accept_rate, 0.5);
@@ -97,7 +97,7 @@ TEST(Decisions, RatesOfAcceptedGoodAndBadMaps) {
 }
 
 TEST(SelfReport, TheDocumentHoldsCommandDefinitionsAndTables) {
-  const std::string text = to_markdown(small_report());
+  const std::string text = to_markdown(small_self_report());
   EXPECT_THAT(text, AllOf(HasSubstr("alight-evaluate self --every 7"), HasSubstr("3 maps, 2 of them good"),
                           HasSubstr("4 maps, 2 of them good"), HasSubstr("90 % of the pixels"),
                           HasSubstr("| hold-out median | 1.000 ± 0.000 | 0.0 % | 0 |"),
@@ -109,14 +109,14 @@ TEST(SelfReport, TheDocumentHoldsCommandDefinitionsAndTables) {
 }
 
 TEST(SelfReport, OneLineAMapInTheScores) {
-  const std::string text = to_csv(small_report());
+  const std::string text = to_csv(small_self_report());
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5);
   EXPECT_THAT(text,
               HasSubstr("\nb_1,0,0,too_far,15,0.25,0,1,1,0.5,0.75,0.5625,0.5,,500,0.2,0.2,reject,reject\n"));
 }
 
 TEST(SelfReport, TheFigureShowsCurvesAndNeedsBothKinds) {
-  SelfReport report = small_report();
+  SelfReport report = small_self_report();
   const cv::Mat figure = draw_roc(report);
   EXPECT_EQ(figure.type(), CV_8UC3);
   EXPECT_EQ(figure.cols, 1200);

@@ -10,15 +10,15 @@
 namespace alight {
 namespace {
 
-torch::Tensor perfect(const DepthSample& sample, const torch::Tensor&) { return sample.dense.clone(); }
+torch::Tensor perfect_depth(const DepthSample& sample, const torch::Tensor&) { return sample.dense.clone(); }
 /// Believes the height, as a network does that has nothing else.
-torch::Tensor level(const DepthSample& sample, const torch::Tensor&) {
+torch::Tensor level_tensor(const DepthSample& sample, const torch::Tensor&) {
   return torch::full_like(sample.dense, sample.height_m - 1);
 }
 
-const std::vector<EvaluationItem> kItems{{0, "a_1"}, {1, "b_1"}};
+const std::vector<EvaluationItem> kScoredItems{{0, "a_1"}, {1, "b_1"}};
 
-SelfScoreConfig small_config() {
+SelfScoreConfig small_score_config() {
   SelfScoreConfig config;
   config.windows_s = {0, 0.5};
   config.good = {{0.9, 0.1, 0.01}, {0.8, 0.1, 0.01}};
@@ -28,9 +28,10 @@ SelfScoreConfig small_config() {
 }
 
 std::vector<MapScores> scores_of(test::FakeMethod::Function function,
-                                 const SelfScoreConfig& config = small_config()) {
+                                 const SelfScoreConfig& config = small_score_config()) {
   auto source = test::scenes(2);
-  return score_maps(test::FakeMethod("fake", std::move(function)), source, kItems, test::scene_rig(), config);
+  return score_maps(test::FakeMethod("fake", std::move(function)), source, kScoredItems, test::scene_rig(),
+                    config);
 }
 
 const MapScores& find(const std::vector<MapScores>& maps, MapOrigin origin, double window_s) {
@@ -52,7 +53,7 @@ TEST(ShareWithin, TheLargerToleranceCountsAndUnknownIsWrong) {
 }
 
 TEST(ScoreMaps, EveryKindOnceAWindowAndInTheOrderOfTheItems) {
-  const std::vector<MapScores> maps = scores_of(perfect);
+  const std::vector<MapScores> maps = scores_of(perfect_depth);
   ASSERT_EQ(maps.size(), 2U * (5 + 6));  // without LiDAR there is nothing to interpolate
   EXPECT_EQ(maps.front().flight, "a_1");
   EXPECT_EQ(maps.back().flight, "b_1");
@@ -60,7 +61,7 @@ TEST(ScoreMaps, EveryKindOnceAWindowAndInTheOrderOfTheItems) {
 }
 
 TEST(ScoreMaps, PerfectDepthIsGoodAndAcceptedByTheHoldOutTest) {
-  const std::vector<MapScores> maps = scores_of(perfect);
+  const std::vector<MapScores> maps = scores_of(perfect_depth);
   for (const double window_s : {0.0, 0.5}) {
     const MapScores& map = find(maps, MapOrigin::kNetwork, window_s);
     EXPECT_EQ(map.share_within, (std::vector<double>{1, 1}));
@@ -72,7 +73,7 @@ TEST(ScoreMaps, PerfectDepthIsGoodAndAcceptedByTheHoldOutTest) {
 }
 
 TEST(ScoreMaps, StretchedDepthIsAsWrongAsItIsStretched) {
-  const std::vector<MapScores> maps = scores_of(perfect);
+  const std::vector<MapScores> maps = scores_of(perfect_depth);
   for (const MapOrigin origin : {MapOrigin::kTooFar, MapOrigin::kTooNear}) {
     const MapScores& map = find(maps, origin, 0.5);
     EXPECT_NEAR(map.holdout.median_relative, 0.1, 1e-5) << name(origin);
@@ -83,7 +84,7 @@ TEST(ScoreMaps, StretchedDepthIsAsWrongAsItIsStretched) {
 }
 
 TEST(ScoreMaps, TheWrongHeightReachesTheNetworkAndNoOtherMap) {
-  const std::vector<MapScores> maps = scores_of(level);
+  const std::vector<MapScores> maps = scores_of(level_tensor);
   const MapScores& right = find(maps, MapOrigin::kNetwork, 0);
   EXPECT_GT(right.share_within[0], 0.9);  // all but the block
   EXPECT_EQ(find(maps, MapOrigin::kWrongHeight, 0).share_within[0], 0);
@@ -96,7 +97,7 @@ TEST(ScoreMaps, TheHoldOutIsTheNextPacketAndWasNotFed) {
   const auto within = [&](double begin_s, double end_s) {
     return (there & (sample.offset_s >= begin_s) & (sample.offset_s < end_s)).sum().item<int>();
   };
-  const std::vector<MapScores> maps = scores_of(perfect);
+  const std::vector<MapScores> maps = scores_of(perfect_depth);
   EXPECT_EQ(find(maps, MapOrigin::kNetwork, 0).holdout.points, within(0, 0.25));
   EXPECT_EQ(find(maps, MapOrigin::kNetwork, 0.5).holdout.points, within(0.5, 0.75));
 }
@@ -106,7 +107,8 @@ TEST(ScoreMaps, ASampleWithoutDenseTruthIsRefusedByName) {
   samples[0].dense = torch::Tensor();
   test::MemorySource source(std::move(samples));
   try {
-    score_maps(test::FakeMethod("fake", level), source, {{0, "real"}}, test::scene_rig(), small_config());
+    score_maps(test::FakeMethod("fake", level_tensor), source, {{0, "real"}}, test::scene_rig(),
+               small_score_config());
     FAIL() << "was not refused";
   } catch (const DataError& error) {
     EXPECT_NE(std::string(error.what()).find("flight real, sample 0"), std::string::npos) << error.what();
@@ -117,8 +119,8 @@ TEST(ScoreMaps, MonoSamplesHaveNoStereoEvidence) {
   std::vector<DepthSample> samples{test::scene_sample(0)};
   samples[0].has_right = false;
   test::MemorySource source(std::move(samples));
-  const auto maps =
-      score_maps(test::FakeMethod("fake", perfect), source, {{0, "a"}}, test::scene_rig(), small_config());
+  const auto maps = score_maps(test::FakeMethod("fake", perfect_depth), source, {{0, "a"}}, test::scene_rig(),
+                               small_score_config());
   for (const MapScores& map : maps) {
     EXPECT_FALSE(map.stereo.sim);
     EXPECT_EQ(map.stereo_verdict, Verdict::kNoEvidence);

@@ -11,7 +11,7 @@
 namespace alight {
 namespace {
 
-const PinholeIntrinsics kCamera{440, 440, 80.0, 60.5, 161, 122};
+const PinholeIntrinsics kWideCamera{440, 440, 80.0, 60.5, 161, 122};
 
 Eigen::Isometry3d translation(double x, double y, double z) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
@@ -28,17 +28,17 @@ cv::Mat plane_depth(const PinholeIntrinsics& k, const Eigen::Vector3d& n, double
 
 TEST(ReprojectDepth, FrontoParallelPlaneMovesByItsDisparity) {
   const double depth = 440 * 0.08 / 4;  // disparity of four pixels
-  const cv::Mat moved =
-      reproject_depth(plane_depth(kCamera, {0, 0, 1}, depth), kCamera, translation(-0.08, 0, 0), kCamera);
+  const cv::Mat moved = reproject_depth(plane_depth(kWideCamera, {0, 0, 1}, depth), kWideCamera,
+                                        translation(-0.08, 0, 0), kWideCamera);
   for (int u = 0; u < moved.cols; ++u) {
     EXPECT_NEAR(moved.at<float>(50, u), u < moved.cols - 4 ? depth : 0, 1e-4) << u;
   }
 }
 
 TEST(ReprojectDepth, NearestSurfaceWins) {
-  cv::Mat depth(kCamera.size(), CV_32FC1, cv::Scalar(17.6));  // disparity 2
-  depth(cv::Rect(60, 40, 20, 20)) = 4.4;                      // disparity 8
-  const cv::Mat moved = reproject_depth(depth, kCamera, translation(-0.08, 0, 0), kCamera);
+  cv::Mat depth(kWideCamera.size(), CV_32FC1, cv::Scalar(17.6));  // disparity 2
+  depth(cv::Rect(60, 40, 20, 20)) = 4.4;                          // disparity 8
+  const cv::Mat moved = reproject_depth(depth, kWideCamera, translation(-0.08, 0, 0), kWideCamera);
   EXPECT_FLOAT_EQ(moved.at<float>(50, 53), 4.4F);
   EXPECT_FLOAT_EQ(moved.at<float>(50, 71), 4.4F);
   EXPECT_EQ(moved.at<float>(50, 73), 0);  // uncovered behind the box
@@ -57,28 +57,30 @@ TEST(SampleView, TrueDepthReconstructsTheOtherEye) {
     }
     return image;
   };
-  const cv::Mat left = paint(kCamera, 0);
-  const cv::Mat right = paint(kCamera, 0.08);
-  const cv::Mat depth_right = plane_depth(kCamera, {0, 0, 1}, 8);
-  const SampledView view = sample_view(left, kCamera, depth_right, kCamera, translation(0.08, 0, 0));
+  const cv::Mat left = paint(kWideCamera, 0);
+  const cv::Mat right = paint(kWideCamera, 0.08);
+  const cv::Mat depth_right = plane_depth(kWideCamera, {0, 0, 1}, 8);
+  const SampledView view = sample_view(left, kWideCamera, depth_right, kWideCamera, translation(0.08, 0, 0));
   cv::Mat difference;
   cv::absdiff(view.image, right, difference);
   EXPECT_GT(cv::countNonZero(view.valid), 150 * 120);
   // OpenCV samples at 1/32 pixel; the texture changes by up to 0.16 a pixel.
   EXPECT_LT(cv::mean(difference, view.valid)[0], 0.16 / 32);
-  const SampledView wrong = sample_view(left, kCamera, depth_right * 1.3, kCamera, translation(0.08, 0, 0));
+  const SampledView wrong =
+      sample_view(left, kWideCamera, depth_right * 1.3, kWideCamera, translation(0.08, 0, 0));
   cv::absdiff(wrong.image, right, difference);
   EXPECT_GT(cv::mean(difference, wrong.valid)[0], 0.05);
 }
 
 TEST(SampleView, OutsideTheSourceIsInvalid) {
-  const cv::Mat image(kCamera.size(), CV_8UC3, cv::Scalar::all(100));
-  const cv::Mat depth(kCamera.size(), CV_32FC1, cv::Scalar(4.4));
-  const SampledView view = sample_view(image, kCamera, depth, kCamera, translation(0.08, 0, 0));
-  EXPECT_EQ(view.valid.at<std::uint8_t>(5, kCamera.width_px - 8), 0);
-  EXPECT_EQ(view.valid.at<std::uint8_t>(5, kCamera.width_px - 10), 255);
-  const cv::Mat none = cv::Mat::zeros(kCamera.size(), CV_32FC1);
-  EXPECT_EQ(cv::countNonZero(sample_view(image, kCamera, none, kCamera, translation(0, 0, 0)).valid), 0);
+  const cv::Mat image(kWideCamera.size(), CV_8UC3, cv::Scalar::all(100));
+  const cv::Mat depth(kWideCamera.size(), CV_32FC1, cv::Scalar(4.4));
+  const SampledView view = sample_view(image, kWideCamera, depth, kWideCamera, translation(0.08, 0, 0));
+  EXPECT_EQ(view.valid.at<std::uint8_t>(5, kWideCamera.width_px - 8), 0);
+  EXPECT_EQ(view.valid.at<std::uint8_t>(5, kWideCamera.width_px - 10), 255);
+  const cv::Mat none = cv::Mat::zeros(kWideCamera.size(), CV_32FC1);
+  EXPECT_EQ(cv::countNonZero(sample_view(image, kWideCamera, none, kWideCamera, translation(0, 0, 0)).valid),
+            0);
 }
 
 class LevelView : public ::testing::TestWithParam<std::tuple<double, double, double>> {};
@@ -95,7 +97,7 @@ TEST_P(LevelView, LevelGroundHasConstantDepthWhateverTheTilt) {
   const double height_m = 12;
   // Ground plane z_world = -height below the camera: (R^T (0,0,-1)) . p_camera = height
   const cv::Mat tilted =
-      plane_depth(kCamera, R_world_camera.transpose() * -Eigen::Vector3d::UnitZ(), height_m);
+      plane_depth(kWideCamera, R_world_camera.transpose() * -Eigen::Vector3d::UnitZ(), height_m);
   const Eigen::Matrix3d R_level_camera = level_rotation(R_world_camera);
   Eigen::Isometry3d T_world_camera(R_world_camera);
   T_world_camera.pretranslate(Eigen::Vector3d(3, -5, height_m));
@@ -103,7 +105,7 @@ TEST_P(LevelView, LevelGroundHasConstantDepthWhateverTheTilt) {
   EXPECT_LT((T_world_level.linear().col(2) + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
   const Eigen::Vector3d p_camera(1, -2, 9);  // one point of the world, whichever of the two looks
   EXPECT_LT((T_world_level * (R_level_camera * p_camera) - T_world_camera * p_camera).norm(), 1e-12);
-  const cv::Mat level = rotate_depth(tilted, kCamera, R_level_camera);
+  const cv::Mat level = rotate_depth(tilted, kWideCamera, R_level_camera);
   double max_error = 0;
   for (int v = 0; v < level.rows; ++v) {
     for (int u = 0; u < level.cols; ++u) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/rig.hpp"
 #include "tests/geometry/rig_error.hpp"

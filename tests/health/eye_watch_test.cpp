@@ -15,7 +15,7 @@ cv::Mat noise(std::uint64_t seed, int low = 40, int high = 200) {
 }
 
 /// Shows `image(i)` at 20 Hz. @returns the fault at the end; "" for none
-std::string fault_of(const std::function<cv::Mat(int)>& image, double speed_mps = 0) {
+std::string fault_of_watch(const std::function<cv::Mat(int)>& image, double speed_mps = 0) {
   EyeWatch watch({}, "left camera");
   for (int i = 0; i < 20; ++i) {
     const double t_s = 0.05 * i;
@@ -28,20 +28,21 @@ std::string fault_of(const std::function<cv::Mat(int)>& image, double speed_mps 
 }
 
 TEST(EyeWatch, PicturesThatVaryAreUsable) {
-  EXPECT_EQ(fault_of([](int i) { return noise(static_cast<std::uint64_t>(i) + 1); }, 3), "");
+  EXPECT_EQ(fault_of_watch([](int i) { return noise(static_cast<std::uint64_t>(i) + 1); }, 3), "");
 }
 
 TEST(EyeWatch, NamesWhatIsNoPicture) {
-  EXPECT_EQ(fault_of([](int i) { return noise(static_cast<std::uint64_t>(i) + 1, 0, 10); }), "black");
-  EXPECT_EQ(fault_of([](int i) { return noise(static_cast<std::uint64_t>(i) + 1, 251, 256); }),
+  EXPECT_EQ(fault_of_watch([](int i) { return noise(static_cast<std::uint64_t>(i) + 1, 0, 10); }), "black");
+  EXPECT_EQ(fault_of_watch([](int i) { return noise(static_cast<std::uint64_t>(i) + 1, 251, 256); }),
             "over-exposed");
-  EXPECT_EQ(fault_of([](int) { return cv::Mat(); }), "lost");
-  EXPECT_EQ(fault_of([](int i) { return noise(static_cast<std::uint64_t>(std::min(i, 9)) + 1); }), "frozen");
+  EXPECT_EQ(fault_of_watch([](int) { return cv::Mat(); }), "lost");
+  EXPECT_EQ(fault_of_watch([](int i) { return noise(static_cast<std::uint64_t>(std::min(i, 9)) + 1); }),
+            "frozen");
 }
 
 TEST(EyeWatch, AStillSceneWithoutNoiseIsFrozenOnlyIfTheVehicleMoves) {
-  EXPECT_EQ(fault_of([](int) { return noise(1); }, 0), "");
-  EXPECT_EQ(fault_of([](int) { return noise(1); }, 3), "frozen");
+  EXPECT_EQ(fault_of_watch([](int) { return noise(1); }, 0), "");
+  EXPECT_EQ(fault_of_watch([](int) { return noise(1); }, 3), "frozen");
 }
 
 TEST(EyeWatch, TheFirstBadPictureIsNotUsedAndIsNoFinding) {

@@ -11,7 +11,7 @@
 namespace alight {
 namespace {
 
-constexpr double kHeight_m = 20;
+constexpr double kScanHeight_m = 20;
 
 Eigen::Isometry3d T_imu_lidar() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();  // boresight down, up = forward
@@ -27,8 +27,8 @@ class Flight {
       : speed_mps_(speed_mps), random_(seed), trajectory_(0.1) {
     for (int i = 0; i <= 600; ++i) {
       trajectory_.add_attitude(at(0.01 * i), Eigen::Quaterniond::Identity());
-      trajectory_.add_position(at(0.01 * i),
-                               Eigen::Vector3d(speed_mps_ * 0.01 * i, 0, kHeight_m + drift_mps * 0.01 * i));
+      trajectory_.add_position(
+          at(0.01 * i), Eigen::Vector3d(speed_mps_ * 0.01 * i, 0, kScanHeight_m + drift_mps * 0.01 * i));
     }
   }
   static std::int64_t at(double s) { return to_nanoseconds(s); }
@@ -41,15 +41,15 @@ class Flight {
     for (int i = 0; i < count; ++i) {
       LidarReturn echo;
       echo.t_ns = packet.t_ns + (i + 1) * 10'000;
-      const Eigen::Vector3d p_world_lidar(speed_mps_ * to_seconds(echo.t_ns), 0, kHeight_m);
+      const Eigen::Vector3d p_world_lidar(speed_mps_ * to_seconds(echo.t_ns), 0, kScanHeight_m);
       // A rosette: neighbouring shots are neighbours on the ground.
       const double shot = 10000.0 * k + i;
       const double left = 0.3 * std::sin(0.0076 * shot) * std::cos(0.00231 * shot);
       const double ahead = 0.3 * std::sin(0.0076 * shot) * std::sin(0.00231 * shot);
-      const double x_m = p_world_lidar.x() + ahead * kHeight_m;
-      const double y_m = left * kHeight_m;
+      const double x_m = p_world_lidar.x() + ahead * kScanHeight_m;
+      const double y_m = left * kScanHeight_m;
       const bool house = y_m > 1 && std::fmod(x_m + 1200, 12) < 5;
-      const double range_m = kHeight_m - (house ? 5 : 0) + noise(random_);
+      const double range_m = kScanHeight_m - (house ? 5 : 0) + noise(random_);
       echo.p_lidar = (range_m * Eigen::Vector3d(1, left, ahead)).cast<float>();
       packet.returns.push_back(echo);
     }

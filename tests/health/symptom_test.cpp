@@ -7,32 +7,32 @@
 namespace alight {
 namespace {
 
-std::int64_t at(double s) { return to_nanoseconds(s); }
+std::int64_t after(double s) { return to_nanoseconds(s); }
 
 TEST(Symptom, OneSignIsNoFinding) {
   Symptom symptom("lidar", "noise");
-  symptom.look({}, at(1.0), true, "x");
+  symptom.look({}, after(1.0), true, "x");
   EXPECT_TRUE(symptom.suspected());
-  symptom.look({}, at(1.1), false, "");
-  symptom.look({}, at(1.2), true, "x");
+  symptom.look({}, after(1.1), false, "");
+  symptom.look({}, after(1.2), true, "x");
   EXPECT_FALSE(symptom.present());
 }
 
 TEST(Symptom, SignsThatFollowOneAnotherAreAFindingSinceTheFirst) {
   Symptom symptom("lidar", "noise");
-  symptom.look({}, at(1.0), true, "a");
-  symptom.look({}, at(1.1), true, "b");
+  symptom.look({}, after(1.0), true, "a");
+  symptom.look({}, after(1.1), true, "b");
   ASSERT_TRUE(symptom.present());
-  EXPECT_EQ(symptom.finding().since_ns, at(1.0));
+  EXPECT_EQ(symptom.finding().since_ns, after(1.0));
   EXPECT_EQ(symptom.finding().reason, "b");
 }
 
 TEST(Symptom, EndsASecondAfterTheLastSign) {
   Symptom symptom("lidar", "noise");
-  symptom.raise(at(1.0), "a");
-  symptom.look({}, at(1.9), false, "");
+  symptom.raise(after(1.0), "a");
+  symptom.look({}, after(1.9), false, "");
   EXPECT_TRUE(symptom.present());
-  symptom.look({}, at(2.0), false, "");
+  symptom.look({}, after(2.0), false, "");
   EXPECT_FALSE(symptom.present());
 }
 

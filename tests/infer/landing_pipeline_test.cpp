@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "tests/infer/fakes.hpp"
 
 namespace alight {
@@ -11,7 +12,7 @@ namespace {
 
 using fakes::kStart_ns;
 
-constexpr double kHeight_m = 12.0;
+constexpr double kAbove_m = 12.0;
 
 DepthEngineConfig small_engine() {
   DepthEngineConfig config;
@@ -33,26 +34,26 @@ std::vector<FrameReport> fly(const std::vector<LogMessage>& messages, std::share
 }
 
 TEST(LandingPipeline, LevelGroundIsAcceptedInTheFifthFrame) {
-  fakes::LevelWorld world(kHeight_m);
+  fakes::LevelWorld world(kAbove_m);
   const auto frames =
-      fly(fakes::flight(world, {2.0}), std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
+      fly(fakes::flight(world, {2.0}), std::make_shared<fakes::FakePredictor>([](int) { return kAbove_m; }));
   ASSERT_GT(frames.size(), 20U);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     ASSERT_TRUE(frames[i].decision.site) << i << " " << frames[i].site_reason();
     EXPECT_EQ(frames[i].decision.site->accepted, i >= 4) << i;
-    // The camera sits at the first fix; the ground is kHeight_m below.
-    EXPECT_NEAR(frames[i].decision.site->p_world.z(), -kHeight_m, 0.05);
+    // The camera sits at the first fix; the ground is kAbove_m below.
+    EXPECT_NEAR(frames[i].decision.site->p_world.z(), -kAbove_m, 0.05);
     EXPECT_NEAR(frames[i].image_site->radius_px, frames[i].decision.site->circle.radius_px, 1.0);
   }
 }
 
 TEST(LandingPipeline, BothDecisionsAreMadeAndTheConfiguredOneIsFollowed) {
-  fakes::LevelWorld world(kHeight_m);
+  fakes::LevelWorld world(kAbove_m);
   for (const SiteSource source : {SiteSource::kFrame, SiteSource::kFused, SiteSource::kBoth}) {
     LandingConfig landing;
     landing.site_source = source;
     const auto frames = fly(fakes::flight(world, {1.0}),
-                            std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }), landing);
+                            std::make_shared<fakes::FakePredictor>([](int) { return kAbove_m; }), landing);
     ASSERT_GT(frames.size(), 8U);
     for (const FrameReport& frame : frames) {
       ASSERT_TRUE(frame.selection && frame.fused);
@@ -60,12 +61,12 @@ TEST(LandingPipeline, BothDecisionsAreMadeAndTheConfiguredOneIsFollowed) {
     }
     ASSERT_TRUE(frames.back().decision.site) << frames.back().site_reason();
     EXPECT_TRUE(frames.back().decision.site->accepted);
-    EXPECT_NEAR(frames.back().decision.site->p_world.z(), -kHeight_m, 0.05);
+    EXPECT_NEAR(frames.back().decision.site->p_world.z(), -kAbove_m, 0.05);
   }
   LandingConfig forgetful;
   forgetful.fuse = false;
   const auto frames = fly(fakes::flight(world, {0.5}),
-                          std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }), forgetful);
+                          std::make_shared<fakes::FakePredictor>([](int) { return kAbove_m; }), forgetful);
   EXPECT_FALSE(frames.front().fused);
   EXPECT_THROW(parse_config<LandingConfig>("{fuse: false, site_source: fused}", "x"), ConfigError);
   EXPECT_THROW(parse_config<LandingConfig>("{fuse: false, site_source: both}", "x"), ConfigError);
@@ -74,14 +75,14 @@ TEST(LandingPipeline, BothDecisionsAreMadeAndTheConfiguredOneIsFollowed) {
 }
 
 TEST(LandingPipeline, NoTrustedDepthNoSiteAndWanderAfterFiveSeconds) {
-  fakes::LevelWorld world(kHeight_m);
+  fakes::LevelWorld world(kAbove_m);
   fakes::FlightPlan plan;
   plan.duration_s = 7;
   plan.image_hz = 4;
   plan.lidar_begin_s = 1e6;
   plan.right = false;
   const auto frames =
-      fly(fakes::flight(world, plan), std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
+      fly(fakes::flight(world, plan), std::make_shared<fakes::FakePredictor>([](int) { return kAbove_m; }));
   for (const FrameReport& frame : frames) {
     EXPECT_FALSE(frame.decision.site);
     EXPECT_EQ(frame.site_reason().rfind("no trusted depth", 0), 0U);
@@ -92,7 +93,7 @@ TEST(LandingPipeline, NoTrustedDepthNoSiteAndWanderAfterFiveSeconds) {
 
 /// The camera falls silent after a second: every LiDAR packet makes a frame, and the site stays accepted.
 TEST(LandingPipeline, WithoutImagesTheLidarGoesOnAlone) {
-  fakes::LevelWorld world(kHeight_m);
+  fakes::LevelWorld world(kAbove_m);
   std::vector<LogMessage> messages = fakes::flight(world, {3.0});
   const std::int64_t lost_ns = kStart_ns + to_nanoseconds(1.5);
   messages.erase(std::remove_if(messages.begin(), messages.end(),
@@ -101,7 +102,7 @@ TEST(LandingPipeline, WithoutImagesTheLidarGoesOnAlone) {
                                   return frame != nullptr && frame->t_ns > lost_ns;
                                 }),
                  messages.end());
-  const auto frames = fly(messages, std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
+  const auto frames = fly(messages, std::make_shared<fakes::FakePredictor>([](int) { return kAbove_m; }));
   int blind = 0;
   for (const FrameReport& frame : frames) {
     if (frame.depth.t_ns <= lost_ns) continue;
@@ -116,7 +117,7 @@ TEST(LandingPipeline, WithoutImagesTheLidarGoesOnAlone) {
 }
 
 TEST(LandingPipeline, AFailedHealthVetoesTheSiteAndSaysSo) {
-  fakes::LevelWorld world(kHeight_m);
+  fakes::LevelWorld world(kAbove_m);
   std::vector<LogMessage> messages = fakes::flight(world, {2.5});
   const std::int64_t jump_ns = kStart_ns + to_nanoseconds(1.5);
   for (LogMessage& message : messages) {
@@ -124,7 +125,7 @@ TEST(LandingPipeline, AFailedHealthVetoesTheSiteAndSaysSo) {
     if (sample != nullptr && sample->t_ns >= jump_ns)
       std::get<GeodeticPosition>(sample->position).altitude_m += 5;
   }
-  const auto frames = fly(messages, std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; }));
+  const auto frames = fly(messages, std::make_shared<fakes::FakePredictor>([](int) { return kAbove_m; }));
   int vetoed = 0;
   for (const FrameReport& frame : frames) {
     if (frame.health.state != HealthState::kFailed) continue;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "infer/benchmark.hpp"
 #include "infer/overlay.hpp"
 #include "tests/infer/bag_of_flight.hpp"
@@ -17,7 +18,7 @@ namespace alight {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr double kHeight_m = 12.0;
+constexpr double kFlown_m = 12.0;
 
 ReplayConfig small_replay() {
   ReplayConfig config;
@@ -29,7 +30,7 @@ ReplayConfig small_replay() {
 }
 
 std::shared_ptr<DepthPredictor> right_predictor() {
-  return std::make_shared<fakes::FakePredictor>([](int) { return kHeight_m; });
+  return std::make_shared<fakes::FakePredictor>([](int) { return kFlown_m; });
 }
 
 std::string text_of(const fs::path& path) {
@@ -46,7 +47,7 @@ class Replay : public testing::Test {
               (std::string("alight_replay_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    fakes::LevelWorld world(kHeight_m);
+    fakes::LevelWorld world(kFlown_m);
     const auto messages = fakes::flight(world, {2.0});
     fakes::write_bag((folder_ / "flight.bag").string(), rig_, messages);
   }
@@ -100,7 +101,7 @@ TEST_F(Replay, WritesEverySoManyDepthMaps) {
     const cv::Mat depth_m = cv::imread(entry.path().string(), cv::IMREAD_UNCHANGED);
     ASSERT_EQ(depth_m.type(), CV_32FC1) << entry.path();
     ASSERT_EQ(depth_m.size(), cv::Size(160, 144)) << entry.path();
-    EXPECT_EQ(cv::countNonZero(depth_m != static_cast<float>(kHeight_m)), 0) << entry.path();
+    EXPECT_EQ(cv::countNonZero(depth_m != static_cast<float>(kFlown_m)), 0) << entry.path();
   }
   EXPECT_EQ(files, 4);
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "infer/landing/fused_selection.hpp"
 #include "tests/landing/scenes.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kFrame_ns = 50'000'000;
 
-Eigen::Isometry3d camera_at(double x_m, double y_m, double z_m) {
+Eigen::Isometry3d camera_level_at(double x_m, double y_m, double z_m) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = scenes::attitude(0, 0);
   T.translation() = Eigen::Vector3d(x_m, y_m, z_m);
@@ -42,7 +43,7 @@ class ElevationGridTest : public testing::Test {
   /// A frame of a network: what it predicts, and what the LiDAR's points in it hit.
   void predicted(ElevationGrid& grid, const Height& shown, const cv::Mat& returns_m, double seconds = 0.05) {
     t_ns_ += to_nanoseconds(seconds);
-    const Eigen::Isometry3d T = camera_at(0.1, 0.1, 12);
+    const Eigen::Isometry3d T = camera_level_at(0.1, 0.1, 12);
     const ElevationRaster raster = rasterize(depth_of(T, shown), k_, T, 0.2, 60);
     const LidarReturns returns = grid.returns_of(returns_m, k_, T);
     grid.add(t_ns_, raster, fit_planes(raster, {}), T.translation(), &returns);
@@ -58,7 +59,8 @@ TEST_F(ElevationGridTest, MeanAndVarianceAreThoseOfTheFrames) {
   ElevationGrid grid({});
   // The whole ground must not move with it, or the frames' heights are aligned: one patch alone.
   for (const double z_m : {0.0, 0.02, 0.04, 0.02}) {
-    frame(grid, camera_at(0, 0, 20), [&](double x, double y) { return std::hypot(x, y) < 1 ? z_m : 0.0; });
+    frame(grid, camera_level_at(0, 0, 20),
+          [&](double x, double y) { return std::hypot(x, y) < 1 ? z_m : 0.0; });
   }
   const ElevationCell* cell = grid.cell(0.1, 0.1);
   ASSERT_NE(cell, nullptr);
@@ -72,8 +74,8 @@ TEST_F(ElevationGridTest, MeanAndVarianceAreThoseOfTheFrames) {
 
 TEST_F(ElevationGridTest, APoleSeenOnceIsNotAveragedAway) {
   ElevationGrid grid({});
-  frame(grid, camera_at(0.1, 0.1, 12), pole_);
-  for (int i = 0; i < 200; ++i) frame(grid, camera_at(0.1, 0.1, 12), flat_);
+  frame(grid, camera_level_at(0.1, 0.1, 12), pole_);
+  for (int i = 0; i < 200; ++i) frame(grid, camera_level_at(0.1, 0.1, 12), flat_);
   const ElevationCell* cell = grid.cell(0.1, 0.1);
   EXPECT_LT(cell->mean_m, 0.3);
   EXPECT_GT(cell->top_m, 2.9);
@@ -89,13 +91,13 @@ TEST_F(ElevationGridTest, AHazardOutOfViewIsRememberedForEverAndOneInViewUntilIt
   ElevationGridConfig config;
   config.forget_after_s = 2;
   ElevationGrid grid(config);
-  frame(grid, camera_at(0.1, 0.1, 12), pole_);
-  for (int i = 0; i < 100; ++i) frame(grid, camera_at(15, 0, 12), flat_);  // 5 s elsewhere
+  frame(grid, camera_level_at(0.1, 0.1, 12), pole_);
+  for (int i = 0; i < 100; ++i) frame(grid, camera_level_at(15, 0, 12), flat_);  // 5 s elsewhere
   EXPECT_TRUE(grid.cell(0.1, 0.1)->has_obstacle());
-  frame(grid, camera_at(0.1, 0.1, 12), flat_);
+  frame(grid, camera_level_at(0.1, 0.1, 12), flat_);
   EXPECT_FALSE(grid.cell(0.1, 0.1)->has_obstacle()) << "seen without it, long after";
-  frame(grid, camera_at(0.1, 0.1, 12), pole_);
-  frame(grid, camera_at(0.1, 0.1, 12), flat_);
+  frame(grid, camera_level_at(0.1, 0.1, 12), pole_);
+  frame(grid, camera_level_at(0.1, 0.1, 12), flat_);
   EXPECT_TRUE(grid.cell(0.1, 0.1)->has_obstacle()) << "too soon";
 }
 
@@ -103,7 +105,7 @@ TEST_F(ElevationGridTest, WhatANetworkAloneShowsIsNeitherRememberedNorForgotten)
   ElevationGridConfig config;
   config.forget_after_s = 2;
   ElevationGrid grid(config);
-  const Eigen::Isometry3d T = camera_at(0.1, 0.1, 12);
+  const Eigen::Isometry3d T = camera_level_at(0.1, 0.1, 12);
   const cv::Mat none = cv::Mat::zeros(k_.size(), CV_32FC1);
   const cv::Mat on_flat = depth_of(T, flat_);
   const cv::Mat on_pole = depth_of(T, pole_);
@@ -126,7 +128,7 @@ TEST_F(ElevationGridTest, WhatANetworkAloneShowsIsNeitherRememberedNorForgotten)
 
 TEST_F(ElevationGridTest, GroundThatANetworkAloneMovesHasNotMoved) {
   ElevationGrid grid({});
-  const Eigen::Isometry3d T = camera_at(0.1, 0.1, 12);
+  const Eigen::Isometry3d T = camera_level_at(0.1, 0.1, 12);
   const Height hill = [](double x, double y) { return std::hypot(x, y) < 2 ? 0.6 : 0.0; };
   const auto has_obstacle = [&] { return grid.cell(0.1, 0.1)->has_obstacle(); };
   for (int i = 0; i < 20; ++i) predicted(grid, flat_, depth_of(T, flat_));
@@ -138,9 +140,9 @@ TEST_F(ElevationGridTest, GroundThatANetworkAloneMovesHasNotMoved) {
 
 TEST_F(ElevationGridTest, ACarThatDrivesOntoTheGroundShowsAtOnce) {
   ElevationGrid grid({});
-  for (int i = 0; i < 60; ++i) frame(grid, camera_at(0, 0, 20), flat_);
+  for (int i = 0; i < 60; ++i) frame(grid, camera_level_at(0, 0, 20), flat_);
   const Height car = [](double x, double y) { return std::abs(x) < 0.9 && std::abs(y) < 2.2 ? 1.5 : 0.0; };
-  frame(grid, camera_at(0, 0, 20), car);
+  frame(grid, camera_level_at(0, 0, 20), car);
   const ElevationRaster raster = grid.raster();
   const GroundShape shape = fit_planes(raster, {});
   for (const double x_m : {-0.5, 0.1, 0.5}) {
@@ -157,7 +159,7 @@ TEST_F(ElevationGridTest, NoiseMakesNoObstacles) {
   ElevationGrid grid({});
   for (int i = 0; i < 100; ++i) {
     t_ns_ += kFrame_ns;
-    const Eigen::Isometry3d T = camera_at(0.01 * i, 0, 20);
+    const Eigen::Isometry3d T = camera_level_at(0.01 * i, 0, 20);
     const cv::Mat depth = scenes::with_noise(depth_of(T, flat_), 0.02, static_cast<std::uint32_t>(i + 1));
     const ElevationRaster raster = rasterize(depth, k_, T, 0.2, 60);
     grid.add(t_ns_, raster, fit_planes(raster, {}), T.translation());
@@ -172,9 +174,9 @@ TEST_F(ElevationGridTest, HeightsThatDriftAreAlignedAndHeightsThatJumpStartAnew)
   ElevationGrid grid({});
   for (int i = 0; i < 20; ++i) {
     const double drift_m = 0.05 * i;  // the pose says that the vehicle rises; the ground goes with it
-    frame(grid, camera_at(0, 0, 20), flat_);
+    frame(grid, camera_level_at(0, 0, 20), flat_);
     t_ns_ += kFrame_ns;
-    Eigen::Isometry3d T = camera_at(0, 0, 20);
+    Eigen::Isometry3d T = camera_level_at(0, 0, 20);
     const cv::Mat depth = depth_of(T, pole_);
     T.translation().z() += drift_m;
     const ElevationRaster raster = rasterize(depth, k_, T, 0.2, 60);
@@ -184,7 +186,7 @@ TEST_F(ElevationGridTest, HeightsThatDriftAreAlignedAndHeightsThatJumpStartAnew)
   EXPECT_NEAR(grid.cell(-1.1, -1.1)->mean_m, 0, 0.01);
   EXPECT_FALSE(grid.cell(-1.1, -1.1)->has_obstacle());
   EXPECT_EQ(grid.starts(), 0);
-  frame(grid, camera_at(0, 0, 25), [](double, double) { return 5.0; });
+  frame(grid, camera_level_at(0, 0, 25), [](double, double) { return 5.0; });
   EXPECT_EQ(grid.starts(), 1);
   EXPECT_EQ(grid.cell(0.1, 0.1)->count, 1);
 }
@@ -194,13 +196,13 @@ TEST_F(ElevationGridTest, TheWindowMovesWithTheVehicleAndItsMemoryDoesNotGrow) {
   config.size_m = 20;
   ElevationGrid grid(config);
   const std::size_t bytes = grid.bytes();
-  frame(grid, camera_at(0.1, 0.1, 12), pole_);
-  frame(grid, camera_at(6, -5, 12), flat_);
+  frame(grid, camera_level_at(0.1, 0.1, 12), pole_);
+  frame(grid, camera_level_at(6, -5, 12), flat_);
   ASSERT_NE(grid.cell(0.1, 0.1), nullptr);
   EXPECT_TRUE(grid.cell(0.1, 0.1)->has_obstacle()) << "still inside the window";
-  frame(grid, camera_at(-30, 30, 12), flat_);
+  frame(grid, camera_level_at(-30, 30, 12), flat_);
   EXPECT_EQ(grid.cell(0.1, 0.1), nullptr);
-  frame(grid, camera_at(4, 0, 12), flat_);
+  frame(grid, camera_level_at(4, 0, 12), flat_);
   ASSERT_NE(grid.cell(0.1, 0.1), nullptr);
   EXPECT_FALSE(grid.cell(0.1, 0.1)->has_obstacle()) << "forgotten outside the window";
   EXPECT_EQ(grid.bytes(), bytes);
@@ -208,7 +210,7 @@ TEST_F(ElevationGridTest, TheWindowMovesWithTheVehicleAndItsMemoryDoesNotGrow) {
 
 TEST_F(ElevationGridTest, GroundWithoutLidarReturnsIsAHazard) {
   ElevationGrid grid({});
-  const Eigen::Isometry3d T = camera_at(0, 0, 20);
+  const Eigen::Isometry3d T = camera_level_at(0, 0, 20);
   cv::Mat returns = depth_of(T, flat_);
   for (int v = 0; v < returns.rows; ++v) {
     for (int u = 0; u < returns.cols; ++u) {
@@ -237,12 +239,12 @@ TEST_F(ElevationGridTest, GroundWithoutLidarReturnsIsAHazard) {
 
 TEST_F(ElevationGridTest, RefusesOtherCellsAndGoingBackInTime) {
   ElevationGrid grid({});
-  frame(grid, camera_at(0, 0, 20), flat_);
+  frame(grid, camera_level_at(0, 0, 20), flat_);
   const ElevationRaster coarse =
-      rasterize(depth_of(camera_at(0, 0, 20), flat_), k_, camera_at(0, 0, 20), 0.5, 60);
+      rasterize(depth_of(camera_level_at(0, 0, 20), flat_), k_, camera_level_at(0, 0, 20), 0.5, 60);
   EXPECT_THROW(grid.add(t_ns_ + 1, coarse, fit_planes(coarse, {}), {0, 0, 20}), std::invalid_argument);
   const ElevationRaster raster =
-      rasterize(depth_of(camera_at(0, 0, 20), flat_), k_, camera_at(0, 0, 20), 0.2, 60);
+      rasterize(depth_of(camera_level_at(0, 0, 20), flat_), k_, camera_level_at(0, 0, 20), 0.2, 60);
   EXPECT_THROW(grid.add(t_ns_ - 1, raster, fit_planes(raster, {}), {0, 0, 20}), std::invalid_argument);
 }
 
@@ -255,7 +257,7 @@ TEST_F(ElevationGridTest, FusedSelectionKeepsAwayFromWhatTheFrameDoesNotSee) {
     t_ns_ += kFrame_ns;
     return std::make_pair(frame, fused.update(t_ns_, depth, {}, T, frame, false));
   };
-  const Eigen::Isometry3d T = camera_at(0.1, 0.1, 25);
+  const Eigen::Isometry3d T = camera_level_at(0.1, 0.1, 25);
   add(T, pole_);
   const auto [frame, remembered] = add(T, flat_);
   ASSERT_TRUE(frame.found());

@@ -43,7 +43,7 @@ cv::Mat ground_with_stone(const Eigen::Isometry3d& T, const Eigen::Vector2d& at_
   return depth;
 }
 
-SiteSelector planes(double noise_m) {
+SiteSelector noisy_planes(double noise_m) {
   SiteSelectionConfig config;
   config.method = LandingMethod::kPlaneFit;
   config.plane_fit.noise_m = noise_m;
@@ -61,9 +61,10 @@ TEST_P(PlaneFitNoise, LevelGroundStaysSafe) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     const cv::Mat depth =
         scenes::with_noise(scenes::level_ground_seen(camera(), GetParam(), T.linear()), kNoise_m, seed);
-    const SiteSelection selection = planes(kNoise_m).select(depth, T);
+    const SiteSelection selection = noisy_planes(kNoise_m).select(depth, T);
     EXPECT_GT(safe_share(selection), 0.99) << seed;
-    if (GetParam() > 17) EXPECT_LT(safe_share(planes(0).select(depth, T)), 0.9) << "the noise is no noise";
+    if (GetParam() > 17)
+      EXPECT_LT(safe_share(noisy_planes(0).select(depth, T)), 0.9) << "the noise is no noise";
   }
 }
 
@@ -75,7 +76,7 @@ TEST_P(PlaneFitNoise, AStoneIsSeenThroughIt) {
         T.translation().head<2>() + Eigen::Vector2d(0.013 * seed - 0.3, 0.4 - 0.017 * seed);
     for (const double stone_m : {0.15, 0.20}) {
       const cv::Mat depth = scenes::with_noise(ground_with_stone(T, at_m, stone_m, stone_m), kNoise_m, seed);
-      const SiteSelection selection = planes(kNoise_m).select(depth, T);
+      const SiteSelection selection = noisy_planes(kNoise_m).select(depth, T);
       int column = 0;
       int row = 0;
       ASSERT_TRUE(selection.ground.raster.cell_at(at_m.x(), at_m.y(), column, row));
@@ -92,7 +93,7 @@ TEST(PlaneFitNoise, AWireAPixelWideIsSeenThroughIt) {
   T.translation().z() = 20;
   cv::Mat depth = scenes::level_ground(camera(), 20);
   depth.col(200).setTo(19.8);
-  const SiteSelection selection = planes(kNoise_m).select(scenes::with_noise(depth, kNoise_m, 3), T);
+  const SiteSelection selection = noisy_planes(kNoise_m).select(scenes::with_noise(depth, kNoise_m, 3), T);
   EXPECT_EQ(cv::countNonZero(selection.safe.col(200)), 0);
   EXPECT_GT(safe_share(selection), 0.7);
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "infer/landing/elevation_raster.hpp"
 #include "infer/landing/site_selection.hpp"
 #include "tests/landing/scenes.hpp"

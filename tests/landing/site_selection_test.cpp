@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "tests/landing/scenes.hpp"
 
 namespace alight {

@@ -12,7 +12,7 @@ namespace {
 using scenes::attitude;
 using scenes::camera_of;
 
-constexpr std::int64_t kFrame_ns = 50'000'000;
+constexpr std::int64_t kImage_ns = 50'000'000;
 
 /// A vehicle over a ground with one good field: a disc at `field`, all else is unknown.
 class SiteTrackerTest : public testing::Test {
@@ -37,12 +37,12 @@ class SiteTrackerTest : public testing::Test {
   }
   SiteDecision frame(const Eigen::Isometry3d& T_world_camera, const Eigen::Vector2d& field,
                      double radius_m = 4) {
-    t_ns_ += kFrame_ns;
+    t_ns_ += kImage_ns;
     return tracker_.update(
         t_ns_, selector_.select(depth_from(T_world_camera, field, radius_m), T_world_camera.linear()),
         T_world_camera);
   }
-  SiteDecision blind() { return tracker_.update_without_depth(t_ns_ += kFrame_ns); }
+  SiteDecision blind() { return tracker_.update_without_depth(t_ns_ += kImage_ns); }
 
   PinholeIntrinsics k_ = camera_of(352, 352);
   SiteSelector selector_{{}, k_};
@@ -118,7 +118,7 @@ TEST_F(SiteTrackerTest, PauseBreaksTheRow) {
 TEST_F(SiteTrackerTest, GroundThatJumpsInHeightIsAnotherGround) {
   for (int i = 0; i < 5; ++i) frame(pose(0, 0, 20), {1, 2});
   // The same picture from a pose that claims 3 m more height.
-  t_ns_ += kFrame_ns;
+  t_ns_ += kImage_ns;
   const Eigen::Isometry3d T = pose(0, 0, 20);
   const SiteSelection selection = selector_.select(depth_from(T, {1, 2}, 4), T.linear());
   const SiteDecision decision = tracker_.update(t_ns_, selection, pose(0, 0, 23));
@@ -129,13 +129,13 @@ TEST_F(SiteTrackerTest, GroundThatJumpsInHeightIsAnotherGround) {
 TEST_F(SiteTrackerTest, WandersAfterFiveSecondsWithoutASiteThatCounts) {
   int frames = 0;
   while (!blind().wander && frames < 1000) ++frames;
-  EXPECT_NEAR(frames * to_seconds(kFrame_ns), 5.0, 0.06);
+  EXPECT_NEAR(frames * to_seconds(kImage_ns), 5.0, 0.06);
   for (int i = 1; i <= 4; ++i)
     EXPECT_TRUE(frame(pose(0, 0, 20), {1, 2}).wander) << "four frames do not count";
   EXPECT_FALSE(frame(pose(0, 0, 20), {1, 2}).wander);
   frames = 0;
   while (!blind().wander && frames < 1000) ++frames;
-  EXPECT_NEAR(frames * to_seconds(kFrame_ns), 5.0, 0.06);
+  EXPECT_NEAR(frames * to_seconds(kImage_ns), 5.0, 0.06);
 }
 
 TEST_F(SiteTrackerTest, RefusesToGoBackInTime) {

@@ -7,7 +7,7 @@
 namespace alight {
 namespace {
 
-torch::Tensor intrinsics(std::int64_t batch = 1) {
+torch::Tensor view_intrinsics(std::int64_t batch = 1) {
   return torch::tensor({{10.0, 10.0, 3.0, 2.0}}, torch::kFloat64).repeat({batch, 1});
 }
 
@@ -22,7 +22,7 @@ torch::Tensor translation(double x, double y, double z) {
 TEST(ViewSynthesis, IdentityGivesTheImageBack) {
   const torch::Tensor image = torch::rand({1, 3, 5, 7}, torch::kFloat64);
   const torch::Tensor depth = 4 + torch::rand({1, 1, 5, 7}, torch::kFloat64);
-  const SynthesisedView view = synthesise_view(image, depth, intrinsics(), translation(0, 0, 0));
+  const SynthesisedView view = synthesise_view(image, depth, view_intrinsics(), translation(0, 0, 0));
   EXPECT_TRUE(torch::allclose(view.image, image, 0, 1e-9));
   EXPECT_TRUE(view.valid.all().item<bool>());
 }
@@ -31,7 +31,7 @@ TEST(ViewSynthesis, StereoShiftIsFocalLengthTimesBaselineOverDepth) {
   // f 10 px, baseline 0.8 m, depth 4 m: disparity 2 px. The target's pixel u is the right image's u - 2.
   const torch::Tensor right = torch::rand({1, 1, 5, 7}, torch::kFloat64);
   const torch::Tensor depth = torch::full({1, 1, 5, 7}, 4.0, torch::kFloat64);
-  const SynthesisedView view = synthesise_view(right, depth, intrinsics(), translation(-0.8, 0, 0));
+  const SynthesisedView view = synthesise_view(right, depth, view_intrinsics(), translation(-0.8, 0, 0));
   EXPECT_TRUE(torch::allclose(view.image.slice(3, 2), right.slice(3, 0, 5), 0, 1e-9));
   EXPECT_FALSE(view.valid.slice(3, 0, 2).any().item<bool>());
   EXPECT_TRUE(view.valid.slice(3, 2).all().item<bool>());
@@ -40,7 +40,7 @@ TEST(ViewSynthesis, StereoShiftIsFocalLengthTimesBaselineOverDepth) {
 TEST(ViewSynthesis, HalfAPixelIsTheMeanOfTwo) {
   const torch::Tensor source = torch::rand({1, 1, 5, 7}, torch::kFloat64);
   const torch::Tensor depth = torch::full({1, 1, 5, 7}, 4.0, torch::kFloat64);
-  const SynthesisedView view = synthesise_view(source, depth, intrinsics(), translation(0, 0.2, 0));
+  const SynthesisedView view = synthesise_view(source, depth, view_intrinsics(), translation(0, 0.2, 0));
   const torch::Tensor expected = (source.slice(2, 0, 4) + source.slice(2, 1, 5)) / 2;
   EXPECT_TRUE(torch::allclose(view.image.slice(2, 0, 4), expected, 0, 1e-9));
 }
@@ -48,7 +48,7 @@ TEST(ViewSynthesis, HalfAPixelIsTheMeanOfTwo) {
 TEST(ViewSynthesis, BehindTheSourceIsNotValid) {
   const torch::Tensor image = torch::rand({1, 1, 5, 7}, torch::kFloat64);
   const torch::Tensor depth = torch::full({1, 1, 5, 7}, 4.0, torch::kFloat64);
-  const SynthesisedView view = synthesise_view(image, depth, intrinsics(), translation(0, 0, -5));
+  const SynthesisedView view = synthesise_view(image, depth, view_intrinsics(), translation(0, 0, -5));
   EXPECT_FALSE(view.valid.any().item<bool>());
   EXPECT_TRUE(view.image.isfinite().all().item<bool>());
 }
@@ -59,7 +59,7 @@ TEST(ViewSynthesis, GradientOfDepthIsThatOfCentralDifferences) {
   const torch::Tensor depth = 4 + torch::rand({2, 1, 5, 7}, torch::kFloat64);
   const torch::Tensor T = torch::cat({translation(-0.23, 0.11, 0.3), translation(0.17, 0.31, -0.2)});
   const auto loss = [&](const torch::Tensor& d) {
-    const SynthesisedView view = synthesise_view(image, d, intrinsics(2), T);
+    const SynthesisedView view = synthesise_view(image, d, view_intrinsics(2), T);
     return (view.image.square() * view.valid).sum();
   };
   EXPECT_LT(test::gradient_error(loss, depth), 1e-6);

@@ -8,7 +8,7 @@
 namespace alight {
 namespace {
 
-double largest_relative_error(const torch::Tensor& actual, const torch::Tensor& expected) {
+double largest_split_error(const torch::Tensor& actual, const torch::Tensor& expected) {
   return ((actual - expected).abs() / expected.abs()).max().item<double>();
 }
 
@@ -40,7 +40,7 @@ TEST(SplitDecoder, DecodesAsTheNetworkDoes) {
         const auto part = decoder.image_part(image);
         for (int step = 0; step < 2; ++step) {  // the image's part stays good for another refinement
           const auto depth = net->encode_depth(test::random_sparse_m(2, height, width), view.prior_m);
-          EXPECT_LT(largest_relative_error(decoder.decode(part, depth), net->decode(image, depth)), 1e-4)
+          EXPECT_LT(largest_split_error(decoder.decode(part, depth), net->decode(image, depth)), 1e-4)
               << height << " " << static_cast<int>(config.stem) << " " << folded;
         }
       }

@@ -1,6 +1,7 @@
 #include "infer/recorder/segment_log.hpp"
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 

@@ -17,6 +17,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "infer/replay.hpp"
 #include "ros/report_messages.hpp"
 #include "ros_session.hpp"

@@ -19,6 +19,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "dataset/messages/livox_custom_msg.hpp"
 #include "geometry/depth_map.hpp"
 #include "geometry/frames.hpp"

@@ -12,13 +12,13 @@ namespace {
 constexpr double kHeight_m = 5;
 
 /// The LiDAR looks straight down: boresight -z, its up = world y, its left = -x.
-Eigen::Isometry3d T_imu_lidar() {
+Eigen::Isometry3d T_imu_boresight() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() << 0, -1, 0, 0, 0, 1, -1, 0, 0;
   return T;
 }
 
-Vehicle hovering() {
+Vehicle hovering_low() {
   FlightStart start;
   start.p_world = {0, 0, kHeight_m};
   return Vehicle(FlightPath(start, {FlightPhase{10, 0, Eigen::Vector3d::Zero(), 0}}), 0);
@@ -61,8 +61,8 @@ struct Crossing {
 std::vector<Crossing> crossings(const LidarConfig& config, bool along_x, float black_height_m = 0) {
   const World world = half_and_half(along_x, black_height_m);
   const Renderer renderer(world);
-  const Vehicle vehicle = hovering();
-  const LidarSensor lidar(renderer, vehicle, T_imu_lidar(), config, 4);
+  const Vehicle vehicle = hovering_low();
+  const LidarSensor lidar(renderer, vehicle, T_imu_boresight(), config, 4);
   std::vector<Crossing> result;
   for (std::int64_t packet = 0; packet < 5; ++packet) {
     for (const LidarShot& shot : lidar.scan(packet).shots) {

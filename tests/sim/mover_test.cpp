@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "sim/lidar_sensor.hpp"
 #include "sim/livox_scan.hpp"

@@ -15,12 +15,12 @@ using test::intrinsics;
 using test::plane;
 using test::surface_of;
 
-struct Place {
+struct TruthPlace {
   World world;
   Renderer renderer{world};
   SurfaceTruth truth{renderer};
 
-  explicit Place(World w) : world(std::move(w)) {}
+  explicit TruthPlace(World w) : world(std::move(w)) {}
 };
 
 World sloped_world(double slope_deg, Material material) {
@@ -46,7 +46,7 @@ World furnished_world() {
 }
 
 TEST(SurfaceTruth, LevelGroundIsSafe) {
-  const Place flat(sloped_world(0, Material::kGrass));
+  const TruthPlace flat(sloped_world(0, Material::kGrass));
   EXPECT_TRUE(flat.truth.is_safe(0, 0));
   EXPECT_NEAR(flat.truth.elevation_m(3, 3), 0, 1e-4);
   EXPECT_FALSE(flat.truth.is_safe(50, 0));
@@ -55,7 +55,7 @@ TEST(SurfaceTruth, LevelGroundIsSafe) {
 
 TEST(SurfaceTruth, SlopeIsMeasuredAndLimited) {
   for (const double slope_deg : {5.0, 9.0, 11.0, 15.0}) {
-    const Place place(sloped_world(slope_deg, Material::kGrass));
+    const TruthPlace place(sloped_world(slope_deg, Material::kGrass));
     EXPECT_NEAR(to_degrees(place.truth.slope_rad().at<float>(50, 50)), slope_deg, 0.01);
     EXPECT_LT(place.truth.residual_m().at<float>(50, 50), 1e-3);
     EXPECT_EQ(place.truth.is_safe(0, 0), slope_deg < 10);
@@ -63,7 +63,7 @@ TEST(SurfaceTruth, SlopeIsMeasuredAndLimited) {
 }
 
 TEST(SurfaceTruth, StonesRoofsWaterAndCanopiesAreUnsafe) {
-  const Place place(furnished_world());
+  const TruthPlace place(furnished_world());
   EXPECT_FALSE(place.truth.is_safe(4, 4));
   EXPECT_FALSE(place.truth.is_safe(4.7, 4));
   EXPECT_TRUE(place.truth.is_safe(6, 4));
@@ -74,7 +74,7 @@ TEST(SurfaceTruth, StonesRoofsWaterAndCanopiesAreUnsafe) {
 }
 
 TEST(SurfaceTruth, ClearanceIsTheDistanceToTheNearestDanger) {
-  const Place place(furnished_world());
+  const TruthPlace place(furnished_world());
   EXPECT_EQ(place.truth.clearance_m(4, 4), 0);
   // From the origin the nearest dangers are the roof's and the pond's corners at (3, 3), less the fitting radius.
   EXPECT_NEAR(place.truth.clearance_m(0, 0), std::hypot(3, 3) - 0.6, 0.35);
@@ -85,7 +85,7 @@ TEST(SurfaceTruth, ClearanceIsTheDistanceToTheNearestDanger) {
 }
 
 TEST(SurfaceTruth, MaskAgreesWithTheGroundBelowEveryPixel) {
-  const Place place(furnished_world());
+  const TruthPlace place(furnished_world());
   const Eigen::Isometry3d T = camera_above(0, 0, 15);
   const View view = place.renderer.render_camera(intrinsics(), T, true);
   const cv::Mat mask = place.truth.safe_mask(view.depth_m, intrinsics(), T);
@@ -103,7 +103,7 @@ TEST(SurfaceTruth, MaskAgreesWithTheGroundBelowEveryPixel) {
 }
 
 TEST(SurfaceTruth, GroundBesideASafeCellsSurfaceIsNotTaken) {
-  const Place place(sloped_world(0, Material::kGrass));
+  const TruthPlace place(sloped_world(0, Material::kGrass));
   const Eigen::Isometry3d T = camera_above(0, 0, 15);
   const cv::Mat above(intrinsics().size(), CV_32FC1, cv::Scalar(14.5));
   EXPECT_EQ(cv::countNonZero(place.truth.safe_mask(above, intrinsics(), T)), 0);

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "models/checkpoint.hpp"
 #include "tool_runner.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-std::string read_file(const fs::path& path) {
+std::string content_of(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::stringstream text;
   text << stream.rdbuf();
@@ -103,7 +104,7 @@ TEST_F(LogFaults, BagWithoutMessages) {
 }
 
 TEST_F(LogFaults, TruncatedBag) {
-  const std::string whole = read_file(quick_flight() / "quick.bag");
+  const std::string whole = content_of(quick_flight() / "quick.bag");
   write_file(folder_ / "cut.bag", whole.substr(0, whole.size() * 2 / 3));
   expect_log_refused(folder_ / "cut.bag", {"cut.bag"});
 }
@@ -126,12 +127,12 @@ TEST_F(LogFaults, OutputFolderThatExistsIsNotTouched) {
     EXPECT_EQ(run.exit_code, 1) << command << "\n" << run.out;
     EXPECT_THAT(run.out, HasSubstr("exists already"));
   }
-  EXPECT_EQ(read_file(out / "precious"), "x");
+  EXPECT_EQ(content_of(out / "precious"), "x");
   EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 1);
 }
 
 TEST_F(LogFaults, RigWithANonRotationMatrix) {
-  std::string rig = read_file(std::string(ALIGHT_SOURCE_DIR) + "/configs/rigs/paper.yaml");
+  std::string rig = content_of(std::string(ALIGHT_SOURCE_DIR) + "/configs/rigs/paper.yaml");
   const std::string row = "- [0, -1, 0, 0.04]";
   rig.replace(rig.find(row), row.size(), "- [0, -2, 0, 0.04]");
   write_file(folder_ / "bad_rig.yaml", rig);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string read_file(const fs::path& path) {
+std::string file_text(const fs::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
@@ -57,9 +57,9 @@ TEST(Train, LeavesAllThatARunIsKnownBy) {
   ASSERT_EQ(said.exit_code, 0) << said.out;
   for (const char* name : {"last.pt", "best.pt", "metrics.csv", "validation.txt"})
     EXPECT_TRUE(fs::exists(run / name));
-  EXPECT_THAT(read_file(run / "config.yaml"),
+  EXPECT_THAT(file_text(run / "config.yaml"),
               AllOf(HasSubstr("steps_per_epoch: 6"), HasSubstr("window_max_s:")));
-  EXPECT_THAT(read_file(run / "provenance.yaml"),
+  EXPECT_THAT(file_text(run / "provenance.yaml"),
               ::testing::ContainsRegex(
                   "git_revision: (unknown|[0-9a-f]{40}(-dirty)?)\ndataset: .*\ndata_hash: [0-9a-f]{16}\n"));
 }
@@ -98,8 +98,8 @@ TEST(Train, RunThatIsKilledAndResumedEqualsTheUninterruptedOne) {
     ASSERT_EQ(run_tool(command(config, run)).exit_code, 0);
   }
   EXPECT_TRUE(killed) << "the tool had ended before it was killed";
-  EXPECT_EQ(read_file(run / "last.pt"), read_file(folder / "whole" / "last.pt"));
-  EXPECT_EQ(read_file(run / "best.pt"), read_file(folder / "whole" / "best.pt"));
+  EXPECT_EQ(file_text(run / "last.pt"), file_text(folder / "whole" / "last.pt"));
+  EXPECT_EQ(file_text(run / "best.pt"), file_text(folder / "whole" / "best.pt"));
 }
 
 TEST(Train, EmptySplitSaysWhatToDo) {

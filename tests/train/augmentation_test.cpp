@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "tests/train/ground_scene.hpp"
 #include "train/batch_geometry.hpp"

@@ -36,7 +36,7 @@ TEST(TrainingBenchmark, ShareCountsAStepAsThreeForwardPasses) {
   EXPECT_THAT(result.json(), HasSubstr("\"convolution_share\": 0.5}"));
 }
 
-TrainConfig tiny_training() {
+TrainConfig timed_training() {
   TrainConfig config;
   config.model = test::tiny_config();
   config.train.batch_size = 2;
@@ -46,7 +46,7 @@ TrainConfig tiny_training() {
 }
 
 TEST(TrainingBenchmark, MeasuresTheTrainersSteps) {
-  const TrainConfig config = tiny_training();
+  const TrainConfig config = timed_training();
   test::MemorySource training = test::scenes(3);
   const TrainingBenchmark result = benchmark_training(config, training, 2);
   EXPECT_GT(result.loading_images_per_s.min, 0);
@@ -72,7 +72,7 @@ class CountingSource : public test::MemorySource {
 };
 
 TEST(TrainingBenchmark, LoadsOneBatchAStepAndAccumulatedBatch) {
-  TrainConfig config = tiny_training();
+  TrainConfig config = timed_training();
   config.train.cache_mb = 0;
   config.optimizer.accumulate = 2;
   std::vector<DepthSample> samples;

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "configs/config_reader.hpp"
 #include "models/checkpoint.hpp"
 #include "tests/models/tiny_net.hpp"
 #include "tests/train/ground_scene.hpp"

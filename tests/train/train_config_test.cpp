@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {

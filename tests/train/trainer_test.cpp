@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "models/checkpoint.hpp"
 #include "tests/models/tiny_net.hpp"

@@ -11,13 +11,13 @@
 namespace alight {
 namespace {
 
-using std::chrono::milliseconds;
+using Milliseconds = std::chrono::milliseconds;
 
 FlightView make_view(double max_rate_hz = 1000) { return {{reports::crop(), 5, 80}, max_rate_hz}; }
 
 TEST(FlightView, NothingIsShownBeforeTheFirstResult) {
   FlightView view = make_view();
-  EXPECT_EQ(view.wait(0, milliseconds(1)), nullptr);
+  EXPECT_EQ(view.wait(0, Milliseconds(1)), nullptr);
   EXPECT_EQ(view.find(1), nullptr);
   EXPECT_TRUE(view.history(0, 100).empty());
 }
@@ -25,7 +25,7 @@ TEST(FlightView, NothingIsShownBeforeTheFirstResult) {
 TEST(FlightView, WaitGivesTheLatestResultNotEveryOne) {
   FlightView view = make_view();
   for (int i = 1; i <= 3; ++i) view.add(reports::with_depth(i));
-  const auto frame = view.wait(0, milliseconds(0));
+  const auto frame = view.wait(0, Milliseconds(0));
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->number(), 3);
   EXPECT_EQ(view.find(3), frame);
@@ -35,46 +35,46 @@ TEST(FlightView, WaitGivesTheLatestResultNotEveryOne) {
 TEST(FlightView, WaitReturnsAsSoonAsAResultComes) {
   FlightView view = make_view();
   view.add(reports::with_depth(1));
-  ASSERT_EQ(view.wait(0, milliseconds(0))->number(), 1);
+  ASSERT_EQ(view.wait(0, Milliseconds(0))->number(), 1);
   std::thread engine([&view] {
-    std::this_thread::sleep_for(milliseconds(30));
+    std::this_thread::sleep_for(Milliseconds(30));
     view.add(reports::with_depth(2));
     // What meets a locked door goes with the next message.
     for (int i = 0; i < 20; ++i) {
-      std::this_thread::sleep_for(milliseconds(5));
+      std::this_thread::sleep_for(Milliseconds(5));
       view.add(LogMessage(AttitudeSample{}));
     }
   });
   const SteadyTime begin = steady_now();
-  EXPECT_EQ(view.wait(1, milliseconds(20000))->number(), 2);
-  EXPECT_LT(milliseconds(0) + (steady_now() - begin), milliseconds(10000));
+  EXPECT_EQ(view.wait(1, Milliseconds(20000))->number(), 2);
+  EXPECT_LT(Milliseconds(0) + (steady_now() - begin), Milliseconds(10000));
   engine.join();
 }
 
 TEST(FlightView, ManyViewersGetOneFrameAPeriodAndShareIt) {
   FlightView view = make_view(0.001);  // one frame in a quarter of an hour
   view.add(reports::with_depth(1));
-  const auto first = view.wait(0, milliseconds(0));
+  const auto first = view.wait(0, Milliseconds(0));
   view.add(reports::with_depth(2));
-  EXPECT_EQ(view.wait(0, milliseconds(0)), first);
-  EXPECT_EQ(view.wait(1, milliseconds(20)), first);  // nothing newer may be shown yet
+  EXPECT_EQ(view.wait(0, Milliseconds(0)), first);
+  EXPECT_EQ(view.wait(1, Milliseconds(20)), first);  // nothing newer may be shown yet
   EXPECT_EQ(&first->jpeg(Picture::kDepth), &view.find(1)->jpeg(Picture::kDepth));
 }
 
 TEST(FlightView, AViewerOfAnotherFlightStartsAnew) {
   FlightView view = make_view();
   view.add(reports::with_depth(1));
-  EXPECT_EQ(view.wait(5000, milliseconds(20000))->number(), 1);
+  EXPECT_EQ(view.wait(5000, Milliseconds(20000))->number(), 1);
   EXPECT_EQ(view.history(5000, 1).size(), 1U);
 }
 
 TEST(FlightView, AViewerWhoComesLateIsNotShownWhatTheLastOneSaw) {
   FlightView view = make_view();
   view.add(reports::with_depth(1));
-  ASSERT_EQ(view.wait(0, milliseconds(0))->number(), 1);
+  ASSERT_EQ(view.wait(0, Milliseconds(0))->number(), 1);
   view.add(reports::with_depth(2));
-  std::this_thread::sleep_for(milliseconds(5));
-  EXPECT_EQ(view.wait(0, milliseconds(0))->number(), 2);
+  std::this_thread::sleep_for(Milliseconds(5));
+  EXPECT_EQ(view.wait(0, Milliseconds(0))->number(), 2);
 }
 
 TEST(FlightView, HistoryIsWhatTheViewerHasNotSeen) {
@@ -93,10 +93,10 @@ TEST(FlightView, ImagesAreFreedByTheEngineOnceNobodyShowsThem) {
   FrameReport report = reports::with_depth(1);
   const auto users = [pixels = report.depth.left.u] { return pixels->refcount; };
   view.add(report);
-  auto shown = view.wait(0, milliseconds(1000));
+  auto shown = view.wait(0, Milliseconds(1000));
   for (int i = 2; i <= 20; ++i) {
     view.add(reports::with_depth(i));
-    view.wait(i - 1, milliseconds(1000));
+    view.wait(i - 1, Milliseconds(1000));
   }
   EXPECT_EQ(users(), 2);  // a viewer is slow: the report and the test
   shown.reset();
@@ -118,7 +118,7 @@ TEST(FlightView, OldFramesAreForgotten) {
   FlightView view = make_view(1e6);
   for (int i = 1; i <= 20; ++i) {
     view.add(reports::with_depth(i));
-    ASSERT_EQ(view.wait(i - 1, milliseconds(1000))->number(), i);
+    ASSERT_EQ(view.wait(i - 1, Milliseconds(1000))->number(), i);
   }
   EXPECT_EQ(view.find(1), nullptr);
   EXPECT_TRUE(view.find(20));
@@ -143,12 +143,12 @@ TEST(FlightView, EverySensorIsMetered) {
 TEST(FlightView, CloseEndsTheWait) {
   FlightView view = make_view();
   std::thread closer([&view] {
-    std::this_thread::sleep_for(milliseconds(30));
+    std::this_thread::sleep_for(Milliseconds(30));
     view.close();
   });
   const SteadyTime begin = steady_now();
-  view.wait(0, milliseconds(60000));
-  EXPECT_LT(steady_now() - begin, milliseconds(30000));
+  view.wait(0, Milliseconds(60000));
+  EXPECT_LT(steady_now() - begin, Milliseconds(30000));
   closer.join();
 }
 
@@ -157,7 +157,7 @@ TEST(ShownFrame, PicturesHaveTheCropsSizeEvenWithoutAnImage) {
   for (const FrameReport& report :
        {reports::with_depth(1), reports::with_site(2, 5, true), reports::without_depth(3)}) {
     view.add(report);
-    const auto frame = view.wait(report.depth.t_ns - 1, milliseconds(1000));
+    const auto frame = view.wait(report.depth.t_ns - 1, Milliseconds(1000));
     for (const Picture picture : {Picture::kLeft, Picture::kDepth, Picture::kSafe}) {
       const std::string& bytes = frame->jpeg(picture);
       const cv::Mat image = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <utility>
 
+#include "configs/config_reader.hpp"
 #include "geometry/depth_map.hpp"
 #include "models/altitude_plane.hpp"
 #include "train/evaluation/delaunay.hpp"

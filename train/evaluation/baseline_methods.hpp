@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "train/evaluation/depth_method.hpp"
 
 namespace alight {

@@ -10,7 +10,9 @@
 namespace alight {
 namespace {
 
-std::string text(cv::Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+std::string pixels_of(cv::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
 
 RectifiedRig rig_of_images(const Rig& rig, cv::Size size, bool centre_cropped) {
   if (!rig.cam1)
@@ -22,15 +24,15 @@ RectifiedRig rig_of_images(const Rig& rig, cv::Size size, bool centre_cropped) {
     return crop(whole, centre_crop(expected, size));
   }
   throw DataError(
-      "the left image has " + text(size) + " pixels, the rig's cameras have " + text(expected) +
+      "the left image has " + pixels_of(size) + " pixels, the rig's cameras have " + pixels_of(expected) +
       "; give the rig of these images, or --centre-cropped if they are the centres of larger ones");
 }
 
 void check_sizes(const DepthCheckInput& input) {
   const auto check = [&](const cv::Mat& map, const char* what) {
     if (map.empty() || map.size() == input.left.size()) return;
-    throw DataError(std::string("the ") + what + " has " + text(map.size()) + " pixels, the left image " +
-                    text(input.left.size()) + "; all must have one size");
+    throw DataError(std::string("the ") + what + " has " + pixels_of(map.size()) +
+                    " pixels, the left image " + pixels_of(input.left.size()) + "; all must have one size");
   };
   check(input.right, "right image");
   check(input.depth_m, "depth map");

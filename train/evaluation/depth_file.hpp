@@ -4,6 +4,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "configs/errors.hpp"
+
 namespace alight {
 
 /// A depth map of any program: 16-bit PNG in 1/256 m (KITTI's convention), or 32-bit TIFF or EXR in metres. What is not

@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "configs/config_reader.hpp"
+
 namespace alight {
 namespace {
 

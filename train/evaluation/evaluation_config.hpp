@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/config_reader.hpp"
+#include "configs/binder_fwd.hpp"
 #include "train/evaluation/baseline_methods.hpp"
 #include "train/evaluation/feeding.hpp"
 #include "train/evaluation/regions.hpp"

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
+#include "cli/text_format.hpp"
+#include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/projection.hpp"
 
@@ -31,13 +32,6 @@ Region band_of(double depth_m) {
   if (depth_m < 10) return Region::kBelow10m;
   if (depth_m < 20) return Region::k10To20m;
   return depth_m < 30 ? Region::k20To30m : Region::kAbove30m;
-}
-
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
 }
 
 }  // namespace
@@ -87,14 +81,14 @@ std::string describe(Region region, const RegionConfig& c) {
     case Region::kDense:
       return "every pixel with true depth (simulated flights)";
     case Region::kInsideFov:
-      return text(
+      return format_text(
           "truth inside the LiDAR's field of view at the time of the image, %g deg around its boresight",
           c.lidar_half_fov_deg);
     case Region::kOutsideFov:
       return "truth outside the LiDAR's field of view at the time of the image";
     case Region::kNearEdges:
-      return text("truth within %d px of a step of more than %g m and %g %% (simulated flights)",
-                  c.edge_distance_px, c.edge_step_m, 100 * c.edge_step_share);
+      return format_text("truth within %d px of a step of more than %g m and %g %% (simulated flights)",
+                         c.edge_distance_px, c.edge_step_m, 100 * c.edge_step_share);
     case Region::kBelow10m:
       return "truth of images whose median depth is below 10 m";
     case Region::k10To20m:

@@ -41,7 +41,7 @@ void check_file(const std::string& option, const fs::path& path, const std::stri
     throw DataError(path.string() + ": the folder " + folder.string() + " is not there; make it first");
 }
 
-void check_options(const SelfOptions& options) {
+void check_self_options(const SelfOptions& options) {
   if (options.checkpoint.empty()) throw ConfigError("--checkpoint is missing: name a trained network");
   if (options.data.empty()) throw ConfigError("--data is missing: name a data set of alight-dataset build");
   if (options.output.empty()) throw ConfigError("--output is missing: name the document to write, .md");
@@ -128,7 +128,7 @@ void write_report(SelfReport& report, const SelfOptions& options) {
 }  // namespace
 
 int run_self(const SelfOptions& options) {
-  check_options(options);
+  check_self_options(options);
   SelfReport report;
   report.config = score_config(options);
   WholeDataset source(options.data);

@@ -1,24 +1,17 @@
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
 
+#include "cli/text_format.hpp"
 #include "train/evaluation/self_report.hpp"
 
 namespace alight {
 namespace {
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
-
-std::string percent(double share) { return std::isfinite(share) ? text("%.1f %%", 100 * share) : "-"; }
+std::string percent(double share) { return std::isfinite(share) ? format_text("%.1f %%", 100 * share) : "-"; }
 
 std::string describe(const GoodDepth& good) {
-  return text(
+  return format_text(
       "%g %% of the pixels with true depth err by no more than %g m or %g %% of the depth, whichever is more",
       100 * good.share, good.error_m, 100 * good.error_relative);
 }
@@ -30,14 +23,14 @@ std::size_t count_good(const MapList& maps, std::size_t definition) {
 }
 
 std::string count_text(const MapList& maps, std::size_t definition = 0) {
-  return text("%zu maps, %zu of them good", maps.size(), count_good(maps, definition));
+  return format_text("%zu maps, %zu of them good", maps.size(), count_good(maps, definition));
 }
 
 std::string area_text(const FlightCases& cases) {
   const auto area = area_under_roc(pooled(cases));
   if (!area) return "-";
   const auto error = area_standard_error(cases);
-  return error ? text("%.3f ± %.3f", *area, *error) : text("%.3f", *area);
+  return error ? format_text("%.3f ± %.3f", *area, *error) : format_text("%.3f", *area);
 }
 
 std::string criteria_table(const SelfReport& report, const MapList& maps, std::size_t definition = 0) {
@@ -49,8 +42,8 @@ std::string criteria_table(const SelfReport& report, const MapList& maps, std::s
     int silent = 0;
     for (const ScoredCase& c : pooled(cases)) silent += std::isinf(c.score) ? 1 : 0;
     const auto rate = false_accept_rate_at(pooled(cases), 0.95);
-    table += text("| %s | %s | %s | %d |\n", criterion.title, area_text(cases).c_str(),
-                  rate ? percent(*rate).c_str() : "-", silent);
+    table += format_text("| %s | %s | %s | %d |\n", criterion.title, area_text(cases).c_str(),
+                         rate ? percent(*rate).c_str() : "-", silent);
   }
   return table + "\n";
 }
@@ -84,7 +77,7 @@ std::string group_table(const SelfReport& report, const std::string& corner, con
   }
   std::string table = head + "\n" + rule + "\n";
   for (const auto& [group, maps] : groups) {
-    table += text("| %s | %zu | %zu |", group.c_str(), maps.size(), count_good(maps, 0));
+    table += format_text("| %s | %zu | %zu |", group.c_str(), maps.size(), count_good(maps, 0));
     for (const Criterion& criterion : criteria()) {
       table += " " + area_text(cases_of(maps, criterion, report.config.image.self_evaluation)) + " |";
     }
@@ -126,7 +119,7 @@ std::string origin_table(const SelfReport& report, const MapList& all) {
   std::string head = "| good maps |";
   std::string rule = "|---|";
   for (const double window_s : report.config.windows_s) {
-    head += text(" %g s |", window_s);
+    head += format_text(" %g s |", window_s);
     rule += "---:|";
   }
   std::string table = head + "\n" + rule + "\n";
@@ -137,7 +130,7 @@ std::string origin_table(const SelfReport& report, const MapList& all) {
       for (const MapScores* map : maps) {
         if (map->window_s == window_s) cell.push_back(map);
       }
-      table += text(" %zu of %zu |", count_good(cell, 0), cell.size());
+      table += format_text(" %zu of %zu |", count_good(cell, 0), cell.size());
     }
     table += "\n";
   }
@@ -155,16 +148,16 @@ std::string head(const SelfReport& report, const MapList& all) {
          ". The lowest step that the site selection tells from flat ground is 9 cm, so 10 cm are the "
          "smallest error that "
          "makes or hides an obstacle\n";
-  out += text(
+  out += format_text(
       "- hold-out: the LiDAR points of the %g s after the fed window; sim_d is made from them and the fed "
       "ones, "
       "which the onboard loop has when it judges\n",
       config.holdout_s);
-  out += text(
+  out += format_text(
       "- wrong on purpose, besides the network's own maps (`network`): level ground at the reported height "
       "(`altitude_plane`), the network told a height %g times as large (`wrong_height`), ",
       config.height_factor);
-  out += text(
+  out += format_text(
       "its depth times %g (`too_far`) and times %g (`too_near`), linear interpolation of the fed points "
       "(`delaunay`)\n\n",
       config.depth_factor, 2 - config.depth_factor);

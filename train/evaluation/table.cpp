@@ -14,14 +14,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Six significant digits are finer than any of it is known.
-std::string number(double value) {
+std::string figure(double value) {
   if (std::isnan(value)) return "";
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
 
-Json json_number(double value) { return std::isnan(value) ? Json(nullptr) : Json(std::stod(number(value))); }
+Json json_number(double value) { return std::isnan(value) ? Json(nullptr) : Json(std::stod(figure(value))); }
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
@@ -63,8 +63,8 @@ void add_lines(std::string& text, const std::string& cell_name, const std::strin
   const PixelErrors pooled = errors.pooled();
   for (const Metric metric : kMetrics) {
     const FlightMean mean = errors.mean(metric);
-    text += cell_name + region + "," + name(metric) + "," + number(pooled.value(metric)) + "," +
-            number(mean.mean) + "," + number(mean.standard_error) + "," + std::to_string(mean.flights) + "," +
+    text += cell_name + region + "," + name(metric) + "," + figure(pooled.value(metric)) + "," +
+            figure(mean.mean) + "," + figure(mean.standard_error) + "," + std::to_string(mean.flights) + "," +
             std::to_string(pooled.pixels()) + "," + std::to_string(pooled.substituted()) + "," +
             std::to_string(pooled.unknown()) + "\n";
   }
@@ -85,8 +85,8 @@ std::string to_csv(const EvaluationReport& report) {
       }
       if (cell.similarity.samples() == 0) continue;
       const FlightMean mean = cell.similarity.mean();
-      text += cell_name + "right_image,ssim," + number(cell.similarity.pooled()) + "," + number(mean.mean) +
-              "," + number(mean.standard_error) + "," + std::to_string(mean.flights) + ",,,\n";
+      text += cell_name + "right_image,ssim," + figure(cell.similarity.pooled()) + "," + figure(mean.mean) +
+              "," + figure(mean.standard_error) + "," + std::to_string(mean.flights) + ",,,\n";
     }
   }
   return text;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "cli/text_format.hpp"
 #include "configs/errors.hpp"
 #include "geometry/depth_map.hpp"
 #include "infer/overlay.hpp"
@@ -15,13 +15,6 @@ namespace alight {
 namespace {
 
 constexpr int kBarWidth_px = 10;
-
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
 
 /// The value that `share` of the pixels of `mask` do not exceed; 0 without one.
 double percentile(const cv::Mat& map, const cv::Mat& mask, double share) {
@@ -63,7 +56,7 @@ Panel error_panel(const cv::Mat& predicted_m, const cv::Mat& truth_m) {
   const double limit_m = std::max(0.01, percentile(error_m, known, 0.99));
   cv::Mat image;
   cv::hconcat(colour_errors(error_m, known, limit_m), scale_bar(truth_m.rows), image);
-  return {text("error: 0 (dark) to %.2f m", limit_m), image};
+  return {format_text("error: 0 (dark) to %.2f m", limit_m), image};
 }
 
 ErrorPicture picture_of(const SampleError& sample_error, const DepthMethod& method, SampleSource& source,
@@ -71,7 +64,7 @@ ErrorPicture picture_of(const SampleError& sample_error, const DepthMethod& meth
   const std::size_t index = sample_error.item.index;
   const DepthSample sample = source.get(index);
   const torch::Tensor fed_m = feed(sample, feeding, static_cast<std::uint64_t>(config.seed) + index);
-  return {text("%s: %.0f mm", sample_error.item.flight.c_str(), sample_error.rmse_mm),
+  return {format_text("%s: %.0f mm", sample_error.item.flight.c_str(), sample_error.rmse_mm),
           tensor_to_image(sample.left), tensor_to_depth(fed_m),
           tensor_to_depth(method.complete(sample, fed_m)),
           tensor_to_depth(sample.dense.defined() ? sample.dense : sample.sparse)};
@@ -84,11 +77,12 @@ cv::Mat draw_errors(const ErrorPicture& picture) {
   const double min_m = percentile(picture.truth_m, known, 0.01);
   const double max_m = std::max(min_m + 0.1, percentile(picture.truth_m, known, 0.99));
   const auto depth = [&](const cv::Mat& depth_m) { return colour_depth(depth_m, min_m, max_m); };
-  return panel_strip({{picture.title, picture.left},
-                      {text("fed: %d points", cv::countNonZero(picture.fed_m)), depth(picture.fed_m)},
-                      {"prediction", depth(picture.predicted_m)},
-                      {text("truth: %.1f (red) to %.1f m (blue)", min_m, max_m), depth(picture.truth_m)},
-                      error_panel(picture.predicted_m, picture.truth_m)});
+  return panel_strip(
+      {{picture.title, picture.left},
+       {format_text("fed: %d points", cv::countNonZero(picture.fed_m)), depth(picture.fed_m)},
+       {"prediction", depth(picture.predicted_m)},
+       {format_text("truth: %.1f (red) to %.1f m (blue)", min_m, max_m), depth(picture.truth_m)},
+       error_panel(picture.predicted_m, picture.truth_m)});
 }
 
 void write_worst_samples(const EvaluationReport& report, const DepthMethod& first_method,
@@ -105,7 +99,7 @@ void write_worst_samples(const EvaluationReport& report, const DepthMethod& firs
                    [&](const Feeding& candidate) { return candidate.name() == config.picture_feeding; });
   for (std::size_t i = 0; i < worst.size(); ++i) {
     const std::string file =
-        text("%02zu_%s_%zu.png", i + 1, worst[i].item.flight.c_str(), worst[i].item.index);
+        format_text("%02zu_%s_%zu.png", i + 1, worst[i].item.flight.c_str(), worst[i].item.index);
     const cv::Mat picture = draw_errors(picture_of(worst[i], first_method, source, config, *feeding));
     if (!cv::imwrite((dir / file).string(), picture)) {
       throw DataError((dir / file).string() + ": cannot be written; check the free space");

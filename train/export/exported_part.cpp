@@ -1,5 +1,6 @@
 #include "train/export/exported_part.hpp"
 
+#include "configs/config_reader.hpp"
 #include "models/fold_batch_norm.hpp"
 
 namespace alight {
