@@ -8,8 +8,26 @@
 #include <iterator>
 #include <sstream>
 
+#include <yaml-cpp/yaml.h>
+
 namespace alight {
 namespace config_detail {
+
+ConfigNode::ConfigNode(const YAML::Node& node)
+    : node_(node.IsDefined() ? std::make_shared<const YAML::Node>(node) : nullptr) {}
+
+bool ConfigNode::is_defined() const { return node_ != nullptr; }
+bool ConfigNode::is_null() const { return node_ != nullptr && node_->IsNull(); }
+bool ConfigNode::is_scalar() const { return node_ != nullptr && node_->IsScalar(); }
+bool ConfigNode::is_sequence() const { return node_ != nullptr && node_->IsSequence(); }
+bool ConfigNode::is_map() const { return node_ != nullptr && node_->IsMap(); }
+const std::string& ConfigNode::scalar() const { return node_->Scalar(); }
+std::size_t ConfigNode::size() const { return node_->size(); }
+ConfigNode ConfigNode::operator[](std::size_t i) const { return ConfigNode((*node_)[i]); }
+ConfigNode ConfigNode::operator[](const std::string& key) const {
+  return ConfigNode((*node_)[key]);  // that of a const map does not add the key
+}
+
 namespace {
 
 /// Levenshtein distance, the measure of "did you mean".
@@ -30,16 +48,16 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 /// The whole scalar must be one number: "3x" and "" are no numbers.
 template <class T>
-bool parse_number(const YAML::Node& node, T& value) {
-  if (!node.IsScalar() || node.Tag() == "!") return false;  // "!" marks a quoted scalar
-  const std::string& text = node.Scalar();
+bool parse_number(const ConfigNode& node, T& value) {
+  if (!node.is_scalar() || node.yaml().Tag() == "!") return false;  // "!" marks a quoted scalar
+  const std::string& text = node.scalar();
   const char* first = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);
   const auto [end, code] = std::from_chars(first, text.data() + text.size(), value);
   return code == std::errc() && end == text.data() + text.size();
 }
 
 template <class T>
-std::string read_number(const YAML::Node& node, T& value, Bounds bounds, const char* expected) {
+std::string read_number(const ConfigNode& node, T& value, Bounds bounds, const char* expected) {
   T number{};
   if (!parse_number(node, number) || !std::isfinite(static_cast<double>(number))) return expected;
   const double as_double = static_cast<double>(number);
@@ -50,23 +68,23 @@ std::string read_number(const YAML::Node& node, T& value, Bounds bounds, const c
 
 }  // namespace
 
-std::string read(const YAML::Node& node, bool& value, Bounds) {
-  if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false")) return "true or false";
-  value = node.Scalar() == "true";
+std::string read(const ConfigNode& node, bool& value, Bounds) {
+  if (!node.is_scalar() || (node.scalar() != "true" && node.scalar() != "false")) return "true or false";
+  value = node.scalar() == "true";
   return {};
 }
-std::string read(const YAML::Node& node, int& value, Bounds bounds) {
+std::string read(const ConfigNode& node, int& value, Bounds bounds) {
   return read_number(node, value, bounds, "a whole number");
 }
-std::string read(const YAML::Node& node, std::int64_t& value, Bounds bounds) {
+std::string read(const ConfigNode& node, std::int64_t& value, Bounds bounds) {
   return read_number(node, value, bounds, "a whole number");
 }
-std::string read(const YAML::Node& node, double& value, Bounds bounds) {
+std::string read(const ConfigNode& node, double& value, Bounds bounds) {
   return read_number(node, value, bounds, "a number");
 }
-std::string read(const YAML::Node& node, std::string& value, Bounds) {
-  if (!node.IsScalar()) return "text";
-  value = node.Scalar();
+std::string read(const ConfigNode& node, std::string& value, Bounds) {
+  if (!node.is_scalar()) return "text";
+  value = node.scalar();
   return {};
 }
 
@@ -114,7 +132,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   return best;
 }
 
-YAML::Node parse_text(const std::string& text, const std::string& name) {
+ConfigNode parse_text(const std::string& text, const std::string& name) {
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& e) {
@@ -122,7 +140,7 @@ YAML::Node parse_text(const std::string& text, const std::string& name) {
   }
 }
 
-YAML::Node parse_file(const std::filesystem::path& path) {
+ConfigNode parse_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path))
     throw ConfigError(path.string() + ": cannot be opened; check the path");
@@ -158,24 +176,17 @@ void Binder::finish(const Shared& shared) {
   if (!message.empty()) throw ConfigError(message);
 }
 
-YAML::Node Binder::take(const std::string& key) {
+config_detail::ConfigNode Binder::take(const std::string& key) {
   known_.insert(key);
   const auto found = shared_->overrides.find(dotted(key));
   if (found != shared_->overrides.end()) {
     shared_->overrides_used.insert(found->first);
     return found->second;
   }
-  if (!node_.IsDefined() || !node_.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
-  const YAML::Node& map = node_;  // the const operator[] does not add the key
-  return map[key];
+  return node_.is_map() ? node_[key] : ConfigNode();
 }
 
-bool Binder::is_section(const std::string& key) const {
-  if (!node_.IsDefined() || !node_.IsMap()) return false;
-  const YAML::Node& map = node_;
-  const YAML::Node value = map[key];
-  return value.IsDefined() && value.IsMap();
-}
+bool Binder::is_section(const std::string& key) const { return node_.is_map() && node_[key].is_map(); }
 
 bool Binder::has_override_below(const std::string& path) const {
   const auto found = shared_->overrides.lower_bound(path + ".");
@@ -192,10 +203,10 @@ void Binder::check(const std::string& key, bool ok, const std::string& message) 
 }
 
 void Binder::report_leftovers() {
-  if (!node_.IsDefined() || !node_.IsMap()) return;
+  if (!node_.is_map()) return;
   std::set<std::string> seen;
   const std::vector<std::string> known(known_.begin(), known_.end());
-  for (const auto& pair : node_) {
+  for (const auto& pair : node_.yaml()) {
     const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "(not a word)";
     if (!seen.insert(key).second) error(pair.first, key, "is given twice");
     if (known_.count(key) != 0) continue;
@@ -205,21 +216,21 @@ void Binder::report_leftovers() {
   }
 }
 
-std::string Binder::place(const YAML::Node& node) const {
-  const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
+std::string Binder::place(const ConfigNode& node) const {
+  const YAML::Mark mark = node.is_defined() ? node.yaml().Mark() : YAML::Mark::null_mark();
   return mark.line < 0 ? shared_->file + ":" : shared_->file + ":" + std::to_string(mark.line + 1) + ":";
 }
 
-void Binder::error(const YAML::Node& node, const std::string& key, const std::string& message) {
+void Binder::error(const ConfigNode& node, const std::string& key, const std::string& message) {
   wrong_.insert(key);
   const std::string path = key.empty() ? path_ : dotted(key);
   const bool set = shared_->overrides.count(path) != 0;
   std::string got;
-  if (message.rfind("expected", 0) == 0 && node.IsDefined()) {
-    got = node.IsScalar() ? ", got \"" + node.Scalar() + "\""
-          : node.IsMap()  ? ", got a section"
-                          : ", got a list";
-    if (node.IsNull()) got = ", got nothing";
+  if (message.rfind("expected", 0) == 0 && node.is_defined()) {
+    got = node.is_scalar() ? ", got \"" + node.scalar() + "\""
+          : node.is_map()  ? ", got a section"
+                           : ", got a list";
+    if (node.is_null()) got = ", got nothing";
   }
   shared_->errors.push_back((set ? "--set" : place(node)) + " " + path + ": " + message + got);
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,9 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include <yaml-cpp/yaml.h>
-
 #include "configs/errors.hpp"
+
+namespace YAML {
+class Node;
+}
 
 namespace alight {
 
@@ -27,8 +30,38 @@ constexpr Bounds between(double min, double max) { return {min, max}; }
 /// Greater than zero (the smallest positive double is the limit).
 constexpr Bounds positive() { return at_least(std::numeric_limits<double>::min()); }
 
+namespace config_detail {
+/// A node of a YAML document, behind a pointer: who binds parses none of yaml-cpp.
+class ConfigNode {
+ public:
+  ConfigNode() = default;              // absent
+  ConfigNode(const YAML::Node& node);  // NOLINT(google-explicit-constructor): the same thing
+
+  bool is_defined() const;
+  bool is_null() const;
+  bool is_scalar() const;
+  bool is_sequence() const;
+  bool is_map() const;
+  /// `none` or nothing where there may be a value.
+  bool is_none() const { return is_null() || (is_scalar() && scalar() == "none"); }
+  const std::string& scalar() const;
+  /// Of a sequence or map.
+  std::size_t size() const;
+  /// An element of a sequence.
+  ConfigNode operator[](std::size_t i) const;
+  /// A value of a map; absent where there is none.
+  ConfigNode operator[](const std::string& key) const;
+
+  /// Not of an absent node.
+  const YAML::Node& yaml() const { return *node_; }
+
+ private:
+  std::shared_ptr<const YAML::Node> node_;
+};
+}  // namespace config_detail
+
 template <class T>
-T bind_node(const YAML::Node& document, const std::string& file,
+T bind_node(const config_detail::ConfigNode& document, const std::string& file,
             const std::vector<std::string>& overrides = {});
 template <class T>
 std::string print_config(const T& value);
@@ -91,32 +124,34 @@ class Binder {
   bool loading() const { return printed_ == nullptr; }
 
  private:
+  using ConfigNode = config_detail::ConfigNode;
+
   template <class T>
-  friend T bind_node(const YAML::Node&, const std::string&, const std::vector<std::string>&);
+  friend T bind_node(const config_detail::ConfigNode&, const std::string&, const std::vector<std::string>&);
   template <class T>
   friend std::string print_config(const T&);
 
   struct Shared {
     std::string file;
-    std::map<std::string, YAML::Node> overrides;  // dotted path -> value of --set
+    std::map<std::string, ConfigNode> overrides;  // dotted path -> value of --set
     std::set<std::string> overrides_used;
     std::vector<std::string> errors;
   };
 
-  Binder(Shared& shared, YAML::Node node, std::string path)
-      : shared_(&shared), node_(node), path_(std::move(path)) {}
+  Binder(Shared& shared, ConfigNode node, std::string path)
+      : shared_(&shared), node_(std::move(node)), path_(std::move(path)) {}
   Binder(std::string& printed, int indent) : printed_(&printed), indent_(indent) {}
 
   static Shared start(const std::string& file, const std::vector<std::string>& overrides);
   static void finish(const Shared& shared);
 
   /// The key's value from --set or the file; null where absent. Notes that the key is known.
-  YAML::Node take(const std::string& key);
+  ConfigNode take(const std::string& key);
   /// Unknown and duplicate keys of this map.
   void report_leftovers();
   std::string dotted(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-  std::string place(const YAML::Node& node) const;
-  void error(const YAML::Node& node, const std::string& key, const std::string& message);
+  std::string place(const ConfigNode& node) const;
+  void error(const ConfigNode& node, const std::string& key, const std::string& message);
   void print_line(const std::string& key, const std::string& value, const std::string& help);
   void print_comment(const std::string& text);
   bool has_override_below(const std::string& path) const;
@@ -125,7 +160,7 @@ class Binder {
   bool load(const std::string& key, T& value, Bounds bounds);
 
   Shared* shared_ = nullptr;
-  YAML::Node node_;
+  ConfigNode node_;
   std::string path_;
   std::set<std::string> known_;
   std::set<std::string> wrong_;  // keys with an error already: one message a key
@@ -135,26 +170,26 @@ class Binder {
 
 namespace config_detail {
 /// Empty on success, else what was expected.
-std::string read(const YAML::Node& node, bool& value, Bounds bounds);
-std::string read(const YAML::Node& node, int& value, Bounds bounds);
-std::string read(const YAML::Node& node, std::int64_t& value, Bounds bounds);
-std::string read(const YAML::Node& node, double& value, Bounds bounds);
-std::string read(const YAML::Node& node, std::string& value, Bounds bounds);
+std::string read(const ConfigNode& node, bool& value, Bounds bounds);
+std::string read(const ConfigNode& node, int& value, Bounds bounds);
+std::string read(const ConfigNode& node, std::int64_t& value, Bounds bounds);
+std::string read(const ConfigNode& node, double& value, Bounds bounds);
+std::string read(const ConfigNode& node, std::string& value, Bounds bounds);
 template <class T>
-std::string read(const YAML::Node& node, std::vector<T>& value, Bounds bounds) {
-  if (!node.IsSequence()) return "a list";
+std::string read(const ConfigNode& node, std::vector<T>& value, Bounds bounds) {
+  if (!node.is_sequence()) return "a list";
   value.clear();
-  for (const auto& element : node) {
+  for (std::size_t i = 0; i < node.size(); ++i) {
     T item{};
-    if (std::string expected = read(element, item, bounds); !expected.empty())
+    if (std::string expected = read(node[i], item, bounds); !expected.empty())
       return "a list of which each is " + expected;
     value.push_back(std::move(item));
   }
   return {};
 }
 template <class T>
-std::string read(const YAML::Node& node, std::optional<T>& value, Bounds bounds) {
-  if (node.IsNull() || (node.IsScalar() && node.Scalar() == "none")) {
+std::string read(const ConfigNode& node, std::optional<T>& value, Bounds bounds) {
+  if (node.is_none()) {
     value.reset();
     return {};
   }
@@ -182,14 +217,14 @@ std::string write(const std::optional<T>& value) {
 
 std::string describe(Bounds bounds);
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
-YAML::Node parse_file(const std::filesystem::path& path);
-YAML::Node parse_text(const std::string& text, const std::string& name);
+ConfigNode parse_file(const std::filesystem::path& path);
+ConfigNode parse_text(const std::string& text, const std::string& name);
 }  // namespace config_detail
 
 template <class T>
 bool Binder::load(const std::string& key, T& value, Bounds bounds) {
-  const YAML::Node node = take(key);
-  if (!node.IsDefined()) return false;
+  const ConfigNode node = take(key);
+  if (!node.is_defined()) return false;
   if (const std::string expected = config_detail::read(node, value, bounds); !expected.empty()) {
     error(node, key, "expected " + expected);
   }
@@ -219,10 +254,10 @@ void Binder::choice(const std::string& key, Enum& value,
     if (number == value) current = name;
   }
   if (printed_ != nullptr) return print_line(key, current, help + " (" + all + ")");
-  const YAML::Node node = take(key);
-  if (!node.IsDefined()) return;
+  const ConfigNode node = take(key);
+  if (!node.is_defined()) return;
   for (const auto& [name, number] : names) {
-    if (node.IsScalar() && node.Scalar() == name) {
+    if (node.is_scalar() && node.scalar() == name) {
       value = number;
       return;
     }
@@ -239,8 +274,8 @@ void Binder::section(const std::string& key, S& value, const std::string& help) 
     bind(nested, value);
     return;
   }
-  const YAML::Node node = take(key);
-  if (node.IsDefined() && !node.IsMap())
+  const ConfigNode node = take(key);
+  if (node.is_defined() && !node.is_map())
     return error(node, key, "expected a section of its own, with indented keys");
   Binder nested(*shared_, node, dotted(key));
   bind(nested, value);
@@ -250,10 +285,9 @@ void Binder::section(const std::string& key, S& value, const std::string& help) 
 template <class S>
 void Binder::section(const std::string& key, std::optional<S>& value, const std::string& help) {
   if (printed_ != nullptr) return value ? section(key, *value, help) : print_line(key, "none", help);
-  const YAML::Node node = take(key);
-  const bool none = node.IsDefined() && (node.IsNull() || (node.IsScalar() && node.Scalar() == "none"));
-  if (none) return value.reset();
-  if (!node.IsDefined() && !has_override_below(dotted(key))) return;
+  const ConfigNode node = take(key);
+  if (node.is_defined() && node.is_none()) return value.reset();
+  if (!node.is_defined() && !has_override_below(dotted(key))) return;
   if (!value) value.emplace();
   section(key, *value, help);
 }
@@ -275,14 +309,14 @@ void Binder::list(const std::string& key, std::vector<S>& values, const std::str
     }
     return;
   }
-  const YAML::Node node = take(key);
-  if (!node.IsDefined()) return;
-  if (!node.IsSequence()) return error(node, key, "expected a list, each item beginning with \"-\"");
+  const ConfigNode node = take(key);
+  if (!node.is_defined()) return;
+  if (!node.is_sequence()) return error(node, key, "expected a list, each item beginning with \"-\"");
   values.clear();
   for (std::size_t i = 0; i < node.size(); ++i) {
     Binder nested(*shared_, node[i], dotted(key) + "." + std::to_string(i));
     values.emplace_back();
-    if (!node[i].IsMap()) {
+    if (!node[i].is_map()) {
       nested.error(node[i], "", "expected a section with keys");
       continue;
     }
@@ -294,11 +328,12 @@ void Binder::list(const std::string& key, std::vector<S>& values, const std::str
 /// Binds a parsed document. `overrides` are `a.b=value`, as given to `--set`.
 /// @throws ConfigError with all mistakes, one a line.
 template <class T>
-T bind_node(const YAML::Node& document, const std::string& file, const std::vector<std::string>& overrides) {
+T bind_node(const config_detail::ConfigNode& document, const std::string& file,
+            const std::vector<std::string>& overrides) {
   Binder::Shared shared = Binder::start(file, overrides);
   T value{};
   Binder binder(shared, document, "");
-  if (document.IsDefined() && !document.IsNull() && !document.IsMap()) {
+  if (document.is_defined() && !document.is_null() && !document.is_map()) {
     throw ConfigError(file + ":1: expected keys and values");
   }
   bind(binder, value);

@@ -1,6 +1,8 @@
 #include <fstream>
 #include <sstream>
 
+#include <yaml-cpp/yaml.h>
+
 #include "configs/config_reader.hpp"
 #include "dataset/flight_section.hpp"
 #include "dataset/sample_store.hpp"
@@ -121,7 +123,7 @@ DatasetInfo read_dataset_info(const fs::path& dir) {
                     " is no data set (make one with alight-dataset build)");
   }
   try {
-    const YAML::Node document = config_detail::parse_file(path);
+    const YAML::Node document = config_detail::parse_file(path).yaml();
     check_version(document, path);
     return from_file(bind_node<InfoFile>(document, path.string()));
   } catch (const ConfigError& e) {

@@ -3,6 +3,8 @@
 #include <fstream>
 #include <sstream>
 
+#include <yaml-cpp/yaml.h>
+
 #include "configs/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/kalibr_camera.hpp"
@@ -23,7 +25,7 @@ class ForeignFile {
     std::string yaml = text.str();
     // OpenCV writes a version with a colon, which no YAML has; a comment keeps the lines where they are.
     if (yaml.rfind("%YAML:", 0) == 0) yaml[0] = '#';
-    root_ = config_detail::parse_text(yaml, path_.string());
+    root_ = config_detail::parse_text(yaml, path_.string()).yaml();
     if (!root_.IsMap()) fail("holds no keys and values");
   }
 

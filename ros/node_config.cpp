@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <yaml-cpp/yaml.h>
+
 #include "cli/shipped_files.hpp"
 #include "configs/config_reader.hpp"
 
