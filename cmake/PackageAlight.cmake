@@ -1,11 +1,11 @@
 # `cpack` in the build folder: Debian packages of what `cmake --install` installs under /usr.
-#   alight_<version>_<architecture>.deb          tools, node, shipped files, documents; what they link, by dpkg-shlibdeps
-#   libalight-dev_<version>_<architecture>.deb   static libraries, headers, CMake package, examples
+#   alight_<version>-1_<architecture>.deb          tools, node, shipped files, documents; what they link, by dpkg-shlibdeps
+#   libalight-dev_<version>-1_<architecture>.deb   static libraries, headers, CMake package, examples
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME alight)
 set(CPACK_PACKAGE_VENDOR "Alight")
 set(CPACK_PACKAGE_CONTACT "Alight maintainers <maintainers@alight.invalid>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # the first line of each description is its own
 set(CPACK_STRIP_FILES ON)
 # Files that name their own place name the one below /usr.
 set(CPACK_SET_DESTDIR ON)
@@ -15,6 +15,7 @@ set(CPACK_COMPONENTS_ALL alight dev)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_ALIGHT_PACKAGE_NAME alight)
@@ -40,7 +41,7 @@ if(ALIGHT_WITH_TORCH)
 endif()
 list(JOIN dev_depends ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 
-# Per package: doc/<package>/copyright and changelog.gz.
+# Per package: doc/<package>/copyright, and the changelog: ours, and the one of the packages that Debian wants.
 find_program(GZIP_PROGRAM gzip REQUIRED)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
 string(REGEX REPLACE "^[^\n]*\n\n[^\n]*\n\n" "" license "${license}")  # its title and the line of the copyright
@@ -56,14 +57,26 @@ Copyright: 2026 the Alight authors
 License: BSD-3-Clause
  @license@
 ")
-set(changelog ${PROJECT_BINARY_DIR}/debian/changelog.gz)
-add_custom_command(OUTPUT ${changelog} COMMAND ${GZIP_PROGRAM} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md >${changelog}
-                   DEPENDS ${PROJECT_SOURCE_DIR}/CHANGELOG.md VERBATIM)
-set(documents ${changelog})
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/changelog.in @ONLY CONTENT
+"alight (@PROJECT_VERSION@-1) unstable; urgency=medium
+
+  * What is new stands in changelog.gz.
+
+ -- @CPACK_PACKAGE_CONTACT@  @date@
+")
+function(alight_compressed from name)
+  set(to ${PROJECT_BINARY_DIR}/debian/${name})
+  add_custom_command(OUTPUT ${to}.gz COMMAND ${CMAKE_COMMAND} -E copy ${from} ${to} COMMAND ${GZIP_PROGRAM} -9nf ${to}
+                     DEPENDS ${from})
+endfunction()
+alight_compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog)
+alight_compressed(${PROJECT_BINARY_DIR}/debian/changelog.in changelog.Debian)
+set(documents ${PROJECT_BINARY_DIR}/debian/changelog.gz ${PROJECT_BINARY_DIR}/debian/changelog.Debian.gz)
 foreach(package alight/alight dev/libalight-dev)
   cmake_path(GET package PARENT_PATH component)
   cmake_path(GET package FILENAME name)
-  install(FILES ${PROJECT_BINARY_DIR}/debian/copyright ${changelog} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+  install(FILES ${PROJECT_BINARY_DIR}/debian/copyright ${documents} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
           COMPONENT ${component})
 endforeach()
 

@@ -35,9 +35,7 @@ expect "comes with the program, $prefix/share/alight/configs/sim/quick.yaml" \
   "$bin/alight-sim" --config configs/sim/quick.yaml --output logs
 expect "comes with the program, $prefix/share/alight/configs/rigs/paper.yaml" \
   "$bin/alight-infer" --log logs/quick.bag --output default
-expect "network: $prefix/share/alight/models/shipped/default.pt" \
-  "$bin/alight-infer" --log logs/quick.bag --output again
-cmp <(sed 's/"stages_ms".*//' default/results.jsonl) <(sed 's/"stages_ms".*//' again/results.jsonl)
+grep -qF "network: $prefix/share/alight/models/shipped/default.pt" "$work/log" || fail "not the shipped network:"
 quietly "$bin/alight-dataset" build --config configs/dataset/default.yaml --log logs/quick.bag --output data
 quietly "$bin/alight-export" --checkpoint models/shipped/default.pt --size 64 --output net.onnx
 quietly "$bin/alight-train" --config configs/train/paper.yaml --print-config
