@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
+#include <thread>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -11,9 +13,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <spawn.h>
 #include <spdlog/spdlog.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "cli/child_exit.hpp"
 #include "cli/output_folder.hpp"
 #include "closed_loop/landing_pictures.hpp"
 #include "configs/config_reader.hpp"
@@ -27,6 +29,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kNoFault = "none";
+constexpr std::chrono::milliseconds kLookAgain{20};  // a landing takes seconds
 
 sim::Look look_of(const std::string& name) {
   for (const sim::Look look : sim::all_looks()) {
@@ -185,17 +188,24 @@ void CampaignFolder::write_pictures(const FlownLanding& flown, const sim::Surfac
 int run_processes(const std::vector<int>& indices, int jobs,
                   const std::function<std::vector<std::string>(int index)>& command,
                   const std::function<void()>& finished) {
+  const EndedChildrenAreKept kept;
   int failed = 0;
-  int running = 0;
-  const auto wait_for_one = [&] {
-    int status = 0;
-    if (waitpid(-1, &status, 0) <= 0) return;
-    --running;
-    failed += WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 0 : 1;
-    finished();
+  std::vector<pid_t> running;
+  const auto wait_for_fewer_than = [&](std::size_t count) {
+    while (running.size() >= count) {
+      const auto ended = std::remove_if(running.begin(), running.end(), [&](pid_t child) {
+        const ChildState state = look_at_child(child);
+        if (!state.ended) return false;
+        failed += state.succeeded() ? 0 : 1;
+        finished();
+        return true;
+      });
+      if (ended == running.end()) std::this_thread::sleep_for(kLookAgain);
+      running.erase(ended, running.end());
+    }
   };
   for (const int index : indices) {
-    while (running >= jobs) wait_for_one();
+    wait_for_fewer_than(static_cast<std::size_t>(jobs));
     const std::vector<std::string> words = command(index);
     std::vector<char*> argv;
     for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
@@ -207,9 +217,9 @@ int run_processes(const std::vector<int>& indices, int jobs,
       ++failed;
       continue;
     }
-    ++running;
+    running.push_back(child);
   }
-  while (running > 0) wait_for_one();
+  wait_for_fewer_than(1);
   return failed;
 }
 

@@ -63,7 +63,8 @@ class CampaignFolder {
 };
 
 /// Runs `command(index)` for every index in processes of their own, `jobs` at a time.
-/// @param finished is told after every landing  @returns how many processes failed
+/// @param finished is told after every landing  @returns how many processes failed, or ended unseen because somebody
+/// else waited for them
 int run_processes(const std::vector<int>& indices, int jobs,
                   const std::function<std::vector<std::string>(int index)>& command,
                   const std::function<void()>& finished);

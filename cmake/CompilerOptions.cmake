@@ -64,22 +64,3 @@ function(alight_torch target)
     target_compile_options(${target} PRIVATE -fPIC)
   endif()
 endfunction()
-
-# alight_test(name SOURCES ... DEPENDS ... [TORCH] [WHOLE]): one test executable a folder. ctest sees each test of it;
-# with TORCH (half a second to load) or WHOLE (costly set-up shared by the tests) it sees the executable as one.
-function(alight_test name)
-  cmake_parse_arguments(ARG "TORCH;WHOLE" "" "SOURCES;DEPENDS" ${ARGN})
-  add_executable(${name}_tests ${ARG_SOURCES})
-  target_link_libraries(${name}_tests PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${name}_tests PRIVATE ALIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                                   ALIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  if(ARG_TORCH)
-    alight_torch(${name}_tests)
-  endif()
-  if(ARG_TORCH OR ARG_WHOLE)
-    add_test(NAME ${name} COMMAND ${name}_tests)
-    set_tests_properties(${name} PROPERTIES TIMEOUT 900 ENVIRONMENT GOMP_SPINCOUNT=1000)
-  else()
-    gtest_discover_tests(${name}_tests DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
-  endif()
-endfunction()

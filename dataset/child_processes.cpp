@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <list>
+#include <optional>
 #include <sstream>
 
 #include <poll.h>
@@ -13,13 +14,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "cli/child_exit.hpp"
 #include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 
 namespace alight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Time = std::chrono::steady_clock::time_point;
 
 constexpr int kPollMs = 50;
 
@@ -83,7 +85,7 @@ double resident_mib(pid_t pid) {
 /// One child at work; killed if it is let go before its end.
 class Child {
  public:
-  Child(std::size_t index, const ChildBody& body) : index_(index), last_sign_(Clock::now()) {
+  Child(std::size_t index, const ChildBody& body, Time now) : index_(index), last_sign_(now) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
     std::fflush(nullptr);  // or the child would write it a second time
@@ -100,7 +102,7 @@ class Child {
     if (fd_ >= 0) close(fd_);
     if (pid_ <= 0) return;
     kill(pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
+    wait_for_child(pid_);
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -112,11 +114,11 @@ class Child {
   const ChildOutcome& outcome() const { return outcome_; }
 
   /// Takes what the pipe holds; at its end, the child's.
-  void read_pipe() {
+  void read_pipe(Time now) {
     char buffer[4096];
     const ssize_t count = read(fd_, buffer, sizeof buffer);
     if (count <= 0) return finish();
-    last_sign_ = Clock::now();
+    last_sign_ = now;
     text_.append(buffer, static_cast<std::size_t>(count));
     for (std::size_t end = text_.find('\n'); end != std::string::npos; end = text_.find('\n')) {
       take_line(text_.substr(0, end));
@@ -124,8 +126,8 @@ class Child {
     }
   }
 
-  void enforce(const ChildLimits& limits) {
-    const double silence_s = std::chrono::duration<double>(Clock::now() - last_sign_).count();
+  void enforce(const ChildLimits& limits, Time now) {
+    const double silence_s = std::chrono::duration<double>(now - last_sign_).count();
     std::ostringstream reason;
     if (silence_s > limits.max_silence_s) {
       reason << "made no progress for " << limits.max_silence_s
@@ -162,35 +164,36 @@ class Child {
   void finish() {
     close(fd_);
     fd_ = -1;
-    int status = 0;
-    waitpid(pid_, &status, 0);
+    const std::optional<int> status = wait_for_child(pid_).status;
     pid_ = -1;
-    if (WIFSIGNALED(status)) {
+    const bool no_result = outcome_.kind == ChildOutcome::Kind::kFailed && outcome_.error.empty();
+    if (!status) {
+      if (no_result) outcome_.error = "ended its reader without a result (its exit code is lost)";
+    } else if (WIFSIGNALED(*status)) {
       outcome_ = {ChildOutcome::Kind::kFailed,
-                  std::string("crashed its reader (") + strsignal(WTERMSIG(status)) + ")"};
-    } else if (WEXITSTATUS(status) != 0 ||
-               (outcome_.kind == ChildOutcome::Kind::kFailed && outcome_.error.empty())) {
+                  std::string("crashed its reader (") + strsignal(WTERMSIG(*status)) + ")"};
+    } else if (WEXITSTATUS(*status) != 0 || no_result) {
       outcome_ = {ChildOutcome::Kind::kFailed, "ended its reader without a result (exit code " +
-                                                   std::to_string(WEXITSTATUS(status)) + ")"};
+                                                   std::to_string(WEXITSTATUS(*status)) + ")"};
     }
   }
 
   std::size_t index_;
   pid_t pid_ = -1;
   int fd_ = -1;
-  Clock::time_point last_sign_;
+  Time last_sign_;
   std::string text_;
   double share_ = 0;
   ChildOutcome outcome_;
 };
 
-void wait_for_news(std::list<Child>& children) {
+void wait_for_news(std::list<Child>& children, const std::function<Time()>& now) {
   std::vector<pollfd> pipes;
   for (const Child& child : children) pipes.push_back({child.fd(), POLLIN, 0});
   poll(pipes.data(), pipes.size(), kPollMs);
   auto pipe = pipes.begin();
   for (Child& child : children) {
-    if ((pipe++)->revents != 0) child.read_pipe();
+    if ((pipe++)->revents != 0) child.read_pipe(now());
   }
 }
 
@@ -204,18 +207,20 @@ void bind(Binder& b, ChildLimits& c) {
 
 std::vector<ChildOutcome> run_in_children(const std::vector<ChildBody>& bodies, int at_once,
                                           const ChildLimits& limits,
-                                          const std::function<void(std::size_t, double)>& progress) {
+                                          const std::function<void(std::size_t, double)>& progress,
+                                          const std::function<Time()>& now) {
+  const EndedChildrenAreKept kept;
   std::vector<ChildOutcome> outcomes(bodies.size());
   std::list<Child> children;
   std::size_t next = 0;
   while (next < bodies.size() || !children.empty()) {
     while (next < bodies.size() && children.size() < static_cast<std::size_t>(at_once)) {
-      children.emplace_back(next, bodies[next]);
+      children.emplace_back(next, bodies[next], now());
       ++next;
     }
-    wait_for_news(children);
+    wait_for_news(children, now);
     for (auto child = children.begin(); child != children.end();) {
-      if (!child->ended()) child->enforce(limits);
+      if (!child->ended()) child->enforce(limits, now());
       if (progress) progress(child->index(), child->ended() ? 1 : child->share());
       if (child->ended()) outcomes[child->index()] = child->outcome();
       child = child->ended() ? children.erase(child) : std::next(child);

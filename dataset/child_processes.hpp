@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -29,8 +30,10 @@ struct ChildOutcome {
 /// Runs every body in a process of its own, `at_once` of them at a time, so that one that crashes, hangs or wants too
 /// much memory takes nothing else with it. What a body writes to files stays, what it writes to memory is lost.
 /// @param progress called in this process with (index of the body, its share done); what it throws ends all children
-std::vector<ChildOutcome> run_in_children(const std::vector<ChildBody>& bodies, int at_once,
-                                          const ChildLimits& limits,
-                                          const std::function<void(std::size_t, double)>& progress);
+/// @param now the clock that silence is measured by
+std::vector<ChildOutcome> run_in_children(
+    const std::vector<ChildBody>& bodies, int at_once, const ChildLimits& limits,
+    const std::function<void(std::size_t, double)>& progress,
+    const std::function<std::chrono::steady_clock::time_point()>& now = std::chrono::steady_clock::now);
 
 }  // namespace alight

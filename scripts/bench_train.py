@@ -2,7 +2,7 @@
 
     alight-train --config FILE --print-config > resolved.yaml
     bench_train.py --config resolved.yaml [--steps N]    steps with and without loading; prints a line of JSON
-    bench_train.py --check STEP_SAMPLES FOLDER            same losses and gradients as C++? (tests/train/step_samples.cpp)
+    bench_train.py --check STEP_SAMPLES                  same losses and gradients as C++? (tests/train/step_samples.cpp)
     bench_train.py --table FILE                           a Markdown table of the lines that bench_train.sh collects
 
 Needs Debian's python3-torch python3-yaml python3-numpy python3-opencv, run by /usr/bin/python3. Augmentation and
@@ -17,6 +17,7 @@ import re
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 from contextlib import nullcontext
 from statistics import median
@@ -165,9 +166,14 @@ def errors_of(checkpoint):
     return {n: ((v - batch[n]).abs() / batch[n].abs()).max().item() for n, v in losses.items()}
 
 
-def check(program, folder):
+def check(program):
+    with tempfile.TemporaryDirectory() as folder:
+        compare(program, pathlib.Path(folder))
+
+
+def compare(program, folder):
     subprocess.run([program, folder], check=True)
-    checkpoints = [p for p in sorted(pathlib.Path(folder).glob("*.pt")) if not p.name.endswith(".tensors.pt")]
+    checkpoints = [p for p in sorted(folder.glob("*.pt")) if not p.name.endswith(".tensors.pt")]
     assert len(checkpoints) >= 3, f"only {len(checkpoints)} checkpoints in {folder}"
     failed = False
     for checkpoint in checkpoints:
@@ -210,12 +216,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--config", type=pathlib.Path)
-    what.add_argument("--check", nargs=2)
+    what.add_argument("--check", metavar="STEP_SAMPLES")
     what.add_argument("--table", type=pathlib.Path)
     parser.add_argument("--steps", type=int, default=10)
     options = parser.parse_args()
     if options.check:
-        check(*options.check)
+        check(options.check)
     elif options.table:
         table(options.table)
     else:

@@ -12,6 +12,7 @@
 #include "infer/autopilot/landing_target.hpp"
 #include "tests/autopilot/receivers.hpp"
 #include "tests/autopilot/reports.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -41,7 +42,7 @@ AttitudeSample attitude_at(double s) {
 bool wait_until(const std::function<bool()>& condition) {
   const SteadyTime begin = steady_now();
   while (!condition()) {
-    if (milliseconds(begin, steady_now()) > 8000) return false;
+    if (milliseconds(begin, steady_now()) > receivers::kPatience_ms) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return true;
@@ -49,7 +50,10 @@ bool wait_until(const std::function<bool()>& condition) {
 
 /// The next frame with this id; fails where none comes.
 Frame next(const receivers::UdpPort& port, int id) {
-  for (Bytes bytes = port.receive(); !bytes.empty(); bytes = port.receive()) {
+  const SteadyTime begin = steady_now();
+  while (milliseconds(begin, steady_now()) < receivers::kPatience_ms) {
+    const Bytes bytes = port.receive();
+    if (bytes.empty()) break;
     if (Frame frame = receivers::take_apart(bytes); frame.id == id) return frame;
   }
   ADD_FAILURE() << "no message " << id;
@@ -93,8 +97,8 @@ TEST(AutopilotLink, SendsAConfirmedSite) {
 }
 
 TEST(AutopilotLink, BeatsEverySecondWithoutAnyResult) {
-  const UdpLink udp;
   const SteadyTime begin = steady_now();
+  const UdpLink udp;
   const Frame first = next(udp.port, kHeartbeat);
   EXPECT_EQ(first.payload, encode(Heartbeat{}).payload);
   EXPECT_EQ(next(udp.port, kHeartbeat).sequence, first.sequence + 1);
@@ -171,12 +175,10 @@ TEST(AutopilotLink, WithoutAnyStampNothingIsKnownToBeFresh) {
 
 TEST(AutopilotLink, KeepsToTheRate) {
   AutopilotConfig config = config_for("");
-  config.max_rate_hz = 1;
+  config.max_rate_hz = 0.001;  // once in a quarter of an hour
   const UdpLink udp(config);
   udp.link->on_message(attitude_at(0));
-  const SteadyTime begin = steady_now();
   for (int i = 0; i < 20; ++i) udp.link->on_frame(confirmed(kStart_ns + i));
-  ASSERT_LT(milliseconds(begin, steady_now()), 1000);
   EXPECT_EQ(udp.withheld("max_rate_hz"), 19);
   next(udp.port, kLandingTarget);
   EXPECT_TRUE(wait_until([&] { return udp.link->statistics().targets == 1; }));
@@ -186,12 +188,17 @@ TEST(AutopilotLink, WhatWaitedIsNotSentOnceAPersonFlies) {
   const receivers::SerialPort port;
   port.jam();
   ModeSwitch mode(FlightMode::kAutomatic);
-  AutopilotLink link(config_for(port.connection()), reports::down_looking_rig(), mode);
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // its thread is busy with the first heartbeat
+  AutopilotConfig config = config_for(port.connection());
+  config.max_rate_hz = 1000;
+  AutopilotLink link(config, reports::down_looking_rig(), mode);
   link.on_message(attitude_at(0));
-  link.on_frame(confirmed());
-  mode.set(FlightMode::kManual);
-  EXPECT_TRUE(wait_until([&] { return link.statistics().withheld["manual mode"] == 1; }));
+  // Once its thread is busy with another message, or slow to wake, the site waits while the mode changes.
+  EXPECT_TRUE(wait_until([&] {
+    mode.set(FlightMode::kAutomatic);
+    link.on_frame(confirmed());
+    mode.set(FlightMode::kManual);
+    return link.statistics().withheld["manual mode"] > 0;
+  }));
   EXPECT_EQ(link.statistics().targets, 0);
 }
 
@@ -210,7 +217,8 @@ TEST(AutopilotLink, SendsOverASerialPort) {
 }
 
 TEST(AutopilotLink, WaitsForASerialPortToBePluggedIn) {
-  const auto device = std::filesystem::temp_directory_path() / ("alight_port_" + std::to_string(::getpid()));
+  const test::ScratchFolder folder;
+  const auto device = folder / "port";
   const ModeSwitch mode(FlightMode::kAutomatic);
   AutopilotLink link(config_for("serial:" + device.string() + ":115200"), reports::down_looking_rig(), mode);
   ASSERT_TRUE(wait_until([&] { return link.statistics().failures > 0; }));
@@ -218,7 +226,6 @@ TEST(AutopilotLink, WaitsForASerialPortToBePluggedIn) {
   const receivers::SerialPort port;
   std::filesystem::create_symlink(port.device(), device);
   EXPECT_EQ(receivers::take_apart(port.receive(21)).id, kHeartbeat);
-  std::filesystem::remove(device);
   EXPECT_TRUE(wait_until([&] { return link.statistics().last_failure.empty(); }));
 }
 
@@ -245,6 +252,18 @@ TEST(AutopilotLink, AnUnreachableHostNeitherThrowsNorStopsTheEngine) {
   EXPECT_THAT(link.statistics().last_failure, HasSubstr("the host is not found"));
 }
 
+/// How long the engine waits for the link at most in 1.2 s, longer than from one try to open a port to the next.
+double longest_wait_ms(AutopilotLink& link) {
+  double longest_ms = 0;
+  for (int i = 0; i < 120; ++i) {
+    const SteadyTime begin = steady_now();
+    link.on_frame(confirmed(kStart_ns + i));
+    longest_ms = std::max(longest_ms, milliseconds(begin, steady_now()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return longest_ms;
+}
+
 TEST(AutopilotLink, AJammedPortDoesNotHoldTheEngineUp) {
   const receivers::SerialPort port;
   port.jam();  // one send takes a fifth of a second until it is given up
@@ -253,14 +272,10 @@ TEST(AutopilotLink, AJammedPortDoesNotHoldTheEngineUp) {
   config.max_rate_hz = 100;
   AutopilotLink link(config, reports::down_looking_rig(), mode);
   link.on_message(attitude_at(0));
-  double longest_ms = 0;
-  for (int i = 0; i < 100; ++i) {
-    const SteadyTime begin = steady_now();
-    link.on_frame(confirmed(kStart_ns + i));
-    longest_ms = std::max(longest_ms, milliseconds(begin, steady_now()));
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_LT(longest_ms, 100);
+  // A busy computer may hold this thread up now and then; the port would do so every time.
+  bool held_up = true;
+  for (int i = 0; i < 30 && held_up; ++i) held_up = longest_wait_ms(link) >= 150;
+  EXPECT_FALSE(held_up);
   EXPECT_GT(link.statistics().failures, 0);
   EXPECT_EQ(link.statistics().targets, 0);
 }

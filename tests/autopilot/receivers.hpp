@@ -25,10 +25,12 @@ namespace alight::receivers {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What is there within `patience_ms`; empty: nothing.
-inline Bytes read_some(int fd, int patience_ms = 3000) {
+constexpr int kPatience_ms = 30'000;  ///< for what has to come, however busy the computer is
+
+/// What is there, or comes within the patience; empty: nothing.
+inline Bytes read_some(int fd) {
   pollfd readable{fd, POLLIN, 0};
-  if (::poll(&readable, 1, patience_ms) != 1) return {};
+  if (::poll(&readable, 1, kPatience_ms) != 1) return {};
   Bytes bytes(4096);
   const ssize_t count = ::read(fd, bytes.data(), bytes.size());
   bytes.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
@@ -50,8 +52,16 @@ class UdpPort {
   int fd() const { return socket_.get(); }
   int port() const { return port_; }
   std::string connection() const { return "udp:127.0.0.1:" + std::to_string(port_); }
+  /// Takes datagrams of nobody any more; the port stays reserved.
+  void refuse_all() const {
+    sockaddr_in itself{};
+    socklen_t size = sizeof itself;
+    auto* generic = reinterpret_cast<sockaddr*>(&itself);
+    EXPECT_EQ(::getsockname(socket_.get(), generic, &size), 0);
+    EXPECT_EQ(::connect(socket_.get(), generic, size), 0);
+  }
   /// One frame; empty: none came.
-  Bytes receive(int patience_ms = 3000) const { return read_some(fd(), patience_ms); }
+  Bytes receive() const { return read_some(fd()); }
 
  private:
   FileDescriptor socket_;

@@ -1,11 +1,11 @@
 #include "calibrate/lidar_calibration.hpp"
 
 #include <cstdio>
+#include <memory>
 #include <string>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +16,7 @@
 #include "geometry/frames.hpp"
 #include "sim/board_recorder.hpp"
 #include "sim/flight_recorder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -38,16 +39,12 @@ sim::BoardSceneConfig scenes() {
 class LidarCalibrationTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder() = fs::temp_directory_path() / ("alight_calibrate_" + std::to_string(getpid()));
-    fs::remove_all(folder());
+    scratch_ = std::make_unique<test::ScratchFolder>();
     bags() = sim::record_boards(scenes(), folder() / "boards");
   }
-  static void TearDownTestSuite() { fs::remove_all(folder()); }
+  static void TearDownTestSuite() { scratch_.reset(); }
 
-  static fs::path& folder() {
-    static fs::path path;
-    return path;
-  }
+  static fs::path folder() { return scratch_->path(); }
   static std::vector<fs::path>& bags() {
     static std::vector<fs::path> paths;
     return paths;
@@ -70,6 +67,8 @@ class LidarCalibrationTest : public ::testing::Test {
     }
     return "nothing was thrown";
   }
+
+  inline static std::unique_ptr<test::ScratchFolder> scratch_;
 };
 
 TEST_F(LidarCalibrationTest, FindsTheMountingWithoutAStartAndKnowsItsError) {

@@ -1,9 +1,9 @@
 #include "calibrate/rig_check.hpp"
 
 #include <fstream>
+#include <memory>
 
 #include <opencv2/imgproc.hpp>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include "configs/errors.hpp"
 #include "geometry/frames.hpp"
 #include "sim/flight_recorder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/tools/tool_runner.hpp"
 
 namespace alight {
@@ -41,21 +42,17 @@ sim::SimConfig flight_config() {
   return config;
 }
 
-/// One flight over a wood, recorded and read once.
+/// One flight over a wood, recorded and read once for all suites.
 class RigCheckTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder() = fs::temp_directory_path() / ("alight_rig_check_" + std::to_string(getpid()));
-    fs::remove_all(folder());
+    if (scratch_) return;
+    scratch_ = std::make_unique<test::ScratchFolder>();
     const sim::SimConfig config = flight_config();
     sim::FlightRecorder(config, folder()).record(config.flights.front());
   }
-  static void TearDownTestSuite() { fs::remove_all(folder()); }
 
-  static fs::path& folder() {
-    static fs::path path;
-    return path;
-  }
+  static fs::path folder() { return scratch_->path(); }
   static Rig true_rig() { return load_rig(flight_config().rig); }
   static FlightViews read(const Rig& rig) { return read_flight_views(folder() / "flight.bag", rig, {}, {}); }
   /// With the true rig.
@@ -79,6 +76,8 @@ class RigCheckTest : public ::testing::Test {
                           (folder() / (name + ".yaml")).string() + " --report " + (folder() / name).string());
   }
   static void write_file(const fs::path& path, const std::string& content) { std::ofstream(path) << content; }
+
+  inline static std::unique_ptr<test::ScratchFolder> scratch_;  // until the program ends
 };
 
 TEST_F(RigCheckTest, ATrueRigIsGood) {

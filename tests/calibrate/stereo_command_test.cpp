@@ -1,10 +1,10 @@
 #include <filesystem>
+#include <memory>
 
 #include <opencv2/imgcodecs.hpp>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CompressedImage.h>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 #include "geometry/frames.hpp"
 #include "geometry/rig.hpp"
 #include "sim/board_recorder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/tools/tool_runner.hpp"
 
 namespace alight {
@@ -27,8 +28,7 @@ constexpr const char* kRight = "/mynteye/right/image_raw";
 class StereoCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder() = fs::temp_directory_path() / ("alight_stereo_" + std::to_string(getpid()));
-    fs::remove_all(folder());
+    scratch_ = std::make_unique<test::ScratchFolder>();
     sim::BoardSceneConfig scenes;
     scenes.rig = (fs::path(ALIGHT_SOURCE_DIR) / "configs" / "rigs" / "paper.yaml").string();
     scenes.seed = 8;
@@ -41,11 +41,8 @@ class StereoCommand : public ::testing::Test {
     scenes.sensors.camera.format = sim::ImageFormat::kJpeg;
     join(sim::record_boards(scenes, folder() / "views"));
   }
-  static void TearDownTestSuite() { fs::remove_all(folder()); }
-  static fs::path& folder() {
-    static fs::path path;
-    return path;
-  }
+  static void TearDownTestSuite() { scratch_.reset(); }
+  static fs::path folder() { return scratch_->path(); }
   static fs::path log() { return folder() / "boards.bag"; }
 
   static void join(const std::vector<fs::path>& bags) {
@@ -63,6 +60,8 @@ class StereoCommand : public ::testing::Test {
   static test::ToolRun run(const std::string& arguments) {
     return test::run_tool("alight-calibrate stereo --board 6x4 --square-m 0.08 " + arguments);
   }
+
+  inline static std::unique_ptr<test::ScratchFolder> scratch_;
 };
 
 TEST_F(StereoCommand, ReadsItsViewsFromTheTopicsOfALog) {

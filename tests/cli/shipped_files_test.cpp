@@ -2,12 +2,11 @@
 
 #include <fstream>
 
-#include <unistd.h>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -19,22 +18,16 @@ using testing::HasSubstr;
 /// A folder of the user's as the working directory. The shipped files are those of the build tree of this test.
 class ShippedFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    fs::create_directories(root_);
-    fs::current_path(root_);
-  }
-  void TearDown() override {
-    fs::current_path(before_);
-    fs::remove_all(root_);
-  }
+  void SetUp() override { fs::current_path(root_); }
+  void TearDown() override { fs::current_path(before_); }
   fs::path touch(const fs::path& name) const {
     fs::create_directories((root_ / name).parent_path());
     std::ofstream(root_ / name) << "x";
     return root_ / name;
   }
   const fs::path before_ = fs::current_path();
-  const fs::path root_ =
-      fs::canonical(testing::TempDir()) / ("alight_shipped_files_" + std::to_string(getpid()));
+  const test::ScratchFolder scratch_;
+  const fs::path root_ = fs::canonical(scratch_.path());
 };
 
 TEST_F(ShippedFiles, AreFoundFromTheBuildTreeThroughItsLinks) {

@@ -1,9 +1,10 @@
 #include "closed_loop/campaign.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
-#include <unistd.h>
+#include <sys/wait.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "closed_loop/campaign_report.hpp"
 #include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight::closed_loop {
 namespace {
@@ -20,9 +22,6 @@ using ::testing::HasSubstr;
 
 class CampaignTest : public ::testing::Test {
  protected:
-  CampaignTest() { fs::remove_all(path_); }
-  ~CampaignTest() override { fs::remove_all(path_); }
-
   LandingResult row(int index, Outcome outcome, double safe_radius_m = 5) const {
     LandingResult r;
     r.seed = plan_.first_seed + index;
@@ -35,7 +34,8 @@ class CampaignTest : public ::testing::Test {
     return r;
   }
 
-  fs::path path_ = fs::temp_directory_path() / ("alight_campaign_" + std::to_string(getpid()));
+  const test::ScratchFolder scratch_;
+  const fs::path path_ = scratch_ / "campaign";
   CampaignPlan plan_ = [] {
     CampaignPlan plan;
     plan.worlds = 6;
@@ -141,20 +141,51 @@ TEST_F(CampaignTest, ADamagedRowIsNamed) {
   }
 }
 
-TEST_F(CampaignTest, ProcessesRunOnceEachAndFailuresAreCounted) {
-  fs::create_directories(path_);
-  int finished = 0;
-  const int failed = run_processes(
-      {0, 1, 2, 3}, 2,
-      [&](int index) {
-        const std::string mark = (path_ / std::to_string(index)).string();
-        return std::vector<std::string>{"/bin/sh", "-c",
-                                        "echo x >> " + mark + "; exit " + (index == 2 ? "1" : "0")};
-      },
-      [&] { ++finished; });
-  EXPECT_EQ(failed, 1);
-  EXPECT_EQ(finished, 4);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(fs::file_size(path_ / std::to_string(i)), 2u) << i;
+/// Four processes, each of which leaves a mark; the third fails.
+class CampaignProcesses : public CampaignTest {
+ protected:
+  CampaignProcesses() { fs::create_directories(path_); }
+  ~CampaignProcesses() override { std::signal(SIGCHLD, SIG_DFL); }
+
+  /// @returns how many failed
+  int run(int jobs = 2, const std::function<void()>& before_each = [] {}) {
+    return run_processes(
+        {0, 1, 2, 3}, jobs,
+        [&](int index) {
+          before_each();
+          const std::string mark = (path_ / std::to_string(index)).string();
+          return std::vector<std::string>{"/bin/sh", "-c",
+                                          "echo x >> " + mark + "; exit " + (index == 2 ? "1" : "0")};
+        },
+        [&] { ++finished_; });
+  }
+  void expect_each_ran_once() const {
+    EXPECT_EQ(finished_, 4);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(fs::file_size(path_ / std::to_string(i)), 2u) << i;
+  }
+
+  int finished_ = 0;
+};
+
+TEST_F(CampaignProcesses, RunOnceEachAndFailuresAreCounted) {
+  EXPECT_EQ(run(), 1);
+  expect_each_ran_once();
+}
+
+TEST_F(CampaignProcesses, AreCountedThoughWhoeverStartedUsIgnoresTheEndsOfChildren) {
+  std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(run(), 1);
+  expect_each_ran_once();
+}
+
+TEST_F(CampaignProcesses, WhoseEndSomebodyElseTookCountAsFailed) {
+  int taken = 0;
+  const int failed = run(4, [&] {
+    while (waitpid(-1, nullptr, 0) > 0) ++taken;
+  });
+  EXPECT_EQ(taken, 3) << "all but the last";
+  EXPECT_EQ(failed, 3);
+  expect_each_ran_once();
 }
 
 TEST_F(CampaignTest, TheReportCountsWhatTheRowsSay) {

@@ -4,12 +4,11 @@
 #include <filesystem>
 #include <string>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include "closed_loop/landing_pictures.hpp"
 #include "dataset/flight_log.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight::closed_loop {
 namespace {
@@ -39,26 +38,27 @@ std::string row(FlownLanding flown) {
 
 class LandingFlightTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = fs::temp_directory_path() / ("alight_landing_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-    flight_ = new LandingFlight(quick(), 200002, nullptr);
-    sim::BagWriter bag(folder_ / "log.bag", sim::BagCompression::kNone);
-    flown_ = new FlownLanding(flight_->fly(&bag));
-    bag.commit();
+  /// The quick landing, flown once for the tests that ask for it.
+  struct Landing {
+    Landing() {
+      sim::BagWriter bag(log(), sim::BagCompression::kNone);
+      flown = flight.fly(&bag);
+      bag.commit();
+    }
+    fs::path log() const { return scratch / "log.bag"; }
+
+    test::ScratchFolder scratch;
+    LandingFlight flight{quick(), 200002, nullptr};
+    FlownLanding flown;
+  };
+  static Landing& landing() {
+    static Landing quick_landing;
+    return quick_landing;
   }
-  static void TearDownTestSuite() {
-    fs::remove_all(folder_);
-    delete flown_;
-    delete flight_;
-  }
-  inline static fs::path folder_;
-  inline static LandingFlight* flight_ = nullptr;
-  inline static FlownLanding* flown_ = nullptr;
 };
 
 TEST_F(LandingFlightTest, LandsOnTrulySafeGround) {
-  const LandingResult& result = flown_->result;
+  const LandingResult& result = landing().flown.result;
   ASSERT_EQ(result.outcome, Outcome::kSafe) << describe(result, 3);
   ASSERT_TRUE(result.footprint);
   EXPECT_LT(result.footprint->slope_deg, 10);
@@ -68,20 +68,20 @@ TEST_F(LandingFlightTest, LandsOnTrulySafeGround) {
   EXPECT_LT(result.miss_m, 0.6);
   EXPECT_GT(result.frames_with_depth, 50);
   // On the ground: the IMU hangs a skid's height over it.
-  const double ground_m = flight_->surface_truth().elevation_m(result.p_end.x(), result.p_end.y());
+  const double ground_m = landing().flight.surface_truth().elevation_m(result.p_end.x(), result.p_end.y());
   EXPECT_NEAR(result.p_end.z() - ground_m, LandFlightConfig().skid_height_m, 0.15);
 }
 
 TEST_F(LandingFlightTest, TheBagHoldsWhatTheEngineGot) {
   const Rig rig = load_rig(quick().rig);
   // A bag without images is no flight log of this rig: the reader says so instead of reading on.
-  EXPECT_THROW(FlightLog(folder_ / "log.bag", rig, {}), DataError);
-  EXPECT_GT(fs::file_size(folder_ / "log.bag"), 1000u * 1000u);
+  EXPECT_THROW(FlightLog(landing().log(), rig, {}), DataError);
+  EXPECT_GT(fs::file_size(landing().log()), 1000u * 1000u);
 }
 
 TEST_F(LandingFlightTest, ItsPicturesShowTheEnd) {
-  const cv::Mat top = top_picture(*flown_, flight_->surface_truth(), 0.85);
-  const cv::Mat side = trajectory_picture(*flown_, flight_->surface_truth());
+  const cv::Mat top = top_picture(landing().flown, landing().flight.surface_truth(), 0.85);
+  const cv::Mat side = trajectory_picture(landing().flown, landing().flight.surface_truth());
   ASSERT_EQ(top.type(), CV_8UC3);
   ASSERT_EQ(side.type(), CV_8UC3);
   cv::Mat mark;
@@ -91,12 +91,12 @@ TEST_F(LandingFlightTest, ItsPicturesShowTheEnd) {
 
 /// The same landing, but a car comes to the confirmed site while the vehicle is on its last way down.
 TEST_F(LandingFlightTest, ACarOnTheConfirmedSiteSendsItUpAgain) {
-  const LandingResult& alone = flown_->result;
+  const LandingResult& alone = landing().flown.result;
   ASSERT_EQ(alone.outcome, Outcome::kSafe);
   double final_s = 0;
   for (const auto& event : alone.events) {
     if (event.to == MissionState::kFinalDescent)
-      final_s = static_cast<double>(event.t_ns) * 1e-9 - flown_->clock_start_s;
+      final_s = static_cast<double>(event.t_ns) * 1e-9 - landing().flown.clock_start_s;
   }
   LandConfig config = quick();
   constexpr double kWay_m = 20;
@@ -121,7 +121,7 @@ TEST_F(LandingFlightTest, ACarOnTheConfirmedSiteSendsItUpAgain) {
   EXPECT_GT((flown.result.p_end - alone.p_end).head<2>().norm(), 2.5) << "half a car's length and the body";
   // The truth is that of the touchdown: the car stands there.
   const double top_m = flight.surface_truth().elevation_m(alone.p_end.x(), alone.p_end.y());
-  EXPECT_GT(top_m, flight_->surface_truth().elevation_m(alone.p_end.x(), alone.p_end.y()) + 1);
+  EXPECT_GT(top_m, landing().flight.surface_truth().elevation_m(alone.p_end.x(), alone.p_end.y()) + 1);
 }
 
 /// It begins 10 m over the flat roof of a tall house, which is all that it sees.
@@ -168,7 +168,7 @@ TEST_F(LandingFlightTest, APositionThatComesBackIsWaitedFor) {
     return event.reason.find("position lost") != std::string::npos;
   });
   EXPECT_TRUE(failed);
-  EXPECT_GT(result.duration_s, flown_->result.duration_s);
+  EXPECT_GT(result.duration_s, landing().flown.result.duration_s);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class BagDamage : public ::testing::Test {
     options.duration_s = 0.5;
     return options;
   }
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   fs::path path_ = folder_.path() / "flight.bag";
 };
 

@@ -43,7 +43,7 @@ class BagInspection : public ::testing::Test {
     write_flight(path, options);
     return path;
   }
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(BagInspection, CountsRatesSpansAndGapsAreThoseOfTheRecording) {

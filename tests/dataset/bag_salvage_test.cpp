@@ -71,7 +71,7 @@ class BagSalvaging : public ::testing::TestWithParam<rosbag::compression::Compre
     out.close();
     plain.close();
   }
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   fs::path whole_ = folder_.path() / "whole.bag";
   fs::path killed_ = folder_.path() / "killed.bag";
 };
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Compressions, BagSalvaging,
                          compression_name);
 
 TEST(BagSalvage, WhatIsLostIsCountedInTheSummaryOfTheLog) {
-  TemporaryFolder folder;
+  ScratchFolder folder;
   const fs::path path = folder.path() / "flight.bag";
   write_flight(path);
   const std::string bytes = without_index(read_bytes(path));
@@ -135,7 +135,7 @@ TEST(BagSalvage, WhatIsLostIsCountedInTheSummaryOfTheLog) {
 }
 
 TEST(BagSalvage, NothingWholeIsAnError) {
-  TemporaryFolder folder;
+  ScratchFolder folder;
   const fs::path path = folder.path() / "flight.bag";
   write_flight(path);
   write_bytes(path, without_index(read_bytes(path)).substr(0, 6000));

@@ -5,6 +5,9 @@
 #include <fstream>
 #include <thread>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,38 +75,42 @@ TEST(ChildProcesses, AHangIsStopped) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(1));
 }
 
+/// By a clock that goes on by 0.6 s whenever the child says something.
 TEST(ChildProcesses, SlowProgressIsNoHang) {
   ChildLimits limits;
   limits.max_silence_s = 1;
-  const ChildOutcome outcome = run_one(
-      [](const Progress& progress) {
-        for (int i = 0; i < 15; ++i) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(100));
-          progress(i / 15.0);
-        }
-      },
-      limits);
-  EXPECT_EQ(outcome.kind, ChildOutcome::Kind::kDone);
+  std::chrono::steady_clock::time_point now;
+  double heard = 0;
+  const ChildBody body = [](const Progress& progress) {
+    for (int i = 1; i <= 15; ++i) {
+      progress(i / 15.0);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // one by one, mostly
+    }
+  };
+  const auto tick = [&](std::size_t, double share) {
+    if (share > heard) now += std::chrono::milliseconds(600);
+    heard = share;
+  };
+  const ChildOutcome outcome = run_in_children({body}, 1, limits, tick, [&] { return now; }).at(0);
+  EXPECT_EQ(outcome.kind, ChildOutcome::Kind::kDone) << outcome.error;
 }
 
 TEST(ChildProcesses, TooMuchMemoryIsStopped) {
   ChildLimits limits;
   limits.max_memory_mib = 600;
+  std::vector<char> hoard;
   const ChildOutcome outcome = run_one(
-      [](const Progress& progress) {
-        std::vector<std::vector<char>> hoard;
-        for (int i = 0; i < 200; ++i) {
-          hoard.emplace_back(10 << 20, static_cast<char>(i));
-          progress(i / 200.0);
-          std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
+      [&](const Progress& progress) {
+        hoard.assign(700 << 20, 'x');
+        progress(0.5);
+        std::this_thread::sleep_for(std::chrono::minutes(1));
       },
       limits);
   EXPECT_THAT(outcome.error, AllOf(HasSubstr("600 MiB"), HasSubstr("max_memory_mib")));
 }
 
 TEST(ChildProcesses, NoMoreRunAtATimeThanAsked) {
-  TemporaryFolder folder;
+  ScratchFolder folder;
   const ChildBody body = [&](const Progress&) {
     const auto mine = folder.path() / std::to_string(getpid());
     std::ofstream(mine).put('x');
@@ -129,20 +136,34 @@ TEST(ChildProcesses, ProgressArrivesForEachAndEndsAtAll) {
 }
 
 TEST(ChildProcesses, WhatTheProgressThrowsEndsAllChildren) {
-  TemporaryFolder folder;
-  const auto late = folder.path() / "late";
-  const ChildBody body = [&](const Progress& progress) {
+  const ChildBody body = [](const Progress& progress) {
     progress(0.1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    std::ofstream(late).put('x');
+    std::this_thread::sleep_for(std::chrono::minutes(1));
   };
   EXPECT_THROW(run_in_children({body, body}, 2, {},
                                [](std::size_t, double share) {
                                  if (share > 0) throw std::runtime_error("stop");
                                }),
                std::runtime_error);
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
-  EXPECT_FALSE(std::filesystem::exists(late));
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
+}
+
+TEST(ChildProcesses, ACrashIsToldThoughWhoeverStartedUsIgnoresTheEndsOfChildren) {
+  std::signal(SIGCHLD, SIG_IGN);
+  const ChildOutcome outcome = run_one([](const Progress&) { std::raise(SIGKILL); });
+  std::signal(SIGCHLD, SIG_DFL);
+  EXPECT_THAT(outcome.error, HasSubstr("crashed its reader (Killed)"));
+}
+
+TEST(ChildProcesses, AnEndThatSomebodyElseTookIsNoHang) {
+  const ChildBody body = [](const Progress& progress) {
+    progress(0.5);
+    _exit(0);
+  };
+  const auto take = [](std::size_t, double share) {
+    if (share > 0 && share < 1) waitpid(-1, nullptr, 0);
+  };
+  EXPECT_THAT(run_in_children({body}, 1, {}, take).at(0).error, HasSubstr("exit code is lost"));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ std::int64_t sum(const std::map<std::string, std::int64_t>& counts) {
 /// there, and a damaged one is either named as unusable, or has every sample, or says what was left out of it.
 TEST(DamagedBags, BecomeErrorsOrSayWhatTheyLost) {
   spdlog::set_level(spdlog::level::off);
-  TemporaryFolder folder;
+  ScratchFolder folder;
   FlightOptions options;
   options.duration_s = 0.5;
   const fs::path whole = folder.path() / "whole.bag";

@@ -16,7 +16,7 @@ int run(const std::string& command) { return std::system((command + " >/dev/null
 
 /// The example script for clusters, with what Slurm sets in an array's tasks.
 TEST(DatasetArray, ShardsOfAnArrayAndTheirMergeEqualOneBuild) {
-  TemporaryFolder folder;
+  ScratchFolder folder;
   const fs::path dir = folder.path();
   DatasetConfig config;
   config.rig = (dir / "rig.yaml").string();

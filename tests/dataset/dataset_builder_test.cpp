@@ -38,7 +38,7 @@ class DatasetBuilder : public ::testing::Test {
       cv::imwrite((folder / (std::to_string(t_ns) + ".png")).string(), encode_depth(depth_m));
     }
   }
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   fs::path log_ = folder_.path() / "flight.bag";
   fs::path output_ = folder_.path() / "data";
   DatasetConfig config_;
@@ -145,9 +145,7 @@ TEST_F(DatasetBuilder, UnusableInputsAreConfigurationErrors) {
   EXPECT_THAT(message_of<ConfigError>([&] { build(output_, rig); }), HasSubstr("T_cam_imu"));
   EXPECT_THAT(message_of<ConfigError>([&] { build_dataset(config_, small_rig(), {}, output_); }),
               HasSubstr("--log"));
-  EXPECT_THAT(message_of<ConfigError>([&] {
-                build_dataset(config_, small_rig(), {log_, log_}, output_);
-              }),
+  EXPECT_THAT(message_of<ConfigError>([&] { build_dataset(config_, small_rig(), {log_, log_}, output_); }),
               HasSubstr("named flight"));
 }
 

@@ -47,7 +47,7 @@ class DatasetStatisticsTest : public ::testing::Test {
     write_sample(dir_.path(), flight, 2, sample_of(4, -0.05), 1);
   }
 
-  TemporaryFolder dir_;
+  ScratchFolder dir_;
   DatasetInfo info_;
 };
 

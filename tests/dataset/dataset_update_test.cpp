@@ -41,7 +41,7 @@ class DatasetUpdate : public ::testing::Test {
   std::string error_of(const std::vector<fs::path>& logs) const {
     return message_of<DataError>([&] { build(logs); });
   }
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   fs::path data_ = folder_.path() / "data";
   DatasetConfig config_;
 };
@@ -188,9 +188,8 @@ TEST_F(DatasetUpdate, PartsThatDoNotBelongTogetherAreNotMerged) {
   config_.depth_map.window_after_s = 0.5;
   build({log("b")}, folder_.path() / "other");
   const auto error = [&](const std::string& other) {
-    return message_of<DataError>([&] {
-      merge_datasets({folder_.path() / "part_1", folder_.path() / other}, data_);
-    });
+    return message_of<DataError>(
+        [&] { merge_datasets({folder_.path() / "part_1", folder_.path() / other}, data_); });
   };
   EXPECT_THAT(error("same"), AllOf(HasSubstr("flight a"), HasSubstr("part_1")));
   EXPECT_THAT(error("other"), HasSubstr("another configuration"));

@@ -41,7 +41,7 @@ class FlightLogTest : public ::testing::Test {
     add(file);
     return path;
   }
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(FlightLogTest, StreamsEverythingInTheOrderOfRecording) {

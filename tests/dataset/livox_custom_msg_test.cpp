@@ -12,7 +12,7 @@ namespace alight::testing {
 namespace {
 
 TEST(LivoxCustomMsg, SurvivesABag) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string path = (folder.path() / "livox.bag").string();
   {
     rosbag::Bag bag(path, rosbag::bagmode::Write);
@@ -34,7 +34,7 @@ TEST(LivoxCustomMsg, RosPythonReadsItAndAgreesOnTheChecksum) {
   if (std::system("/usr/bin/python3 -c 'import rosbag, genpy.dynamic' >/dev/null 2>&1") != 0) {
     GTEST_SKIP() << "needs python3-rosbag";
   }
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string path = (folder.path() / "livox.bag").string();
   {
     rosbag::Bag bag(path, rosbag::bagmode::Write);

@@ -159,7 +159,7 @@ class RotatingScanner : public ::testing::Test {
     return static_cast<double>(close) / static_cast<double>(pixels);
   }
 
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   Rig rig_;
   Eigen::Isometry3d T_imu_lidar_;
 };

@@ -86,7 +86,7 @@ class SampleStore : public ::testing::Test {
     write_bytes(dir_ / file, text.replace(at, from.size(), to));
   }
 
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   fs::path dir_ = folder_.path();
   FlightEntry flight_;
   Sample sample_;

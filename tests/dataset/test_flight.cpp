@@ -1,29 +1,16 @@
 #include "test_flight.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
 #include <opencv2/imgcodecs.hpp>
-#include <unistd.h>
 
 #include "geometry/frames.hpp"
 
 namespace alight::testing {
 namespace fs = std::filesystem;
-
-TemporaryFolder::TemporaryFolder() {
-  static std::atomic<int> counter{0};
-  path_ = fs::temp_directory_path() /
-          ("alight_dataset_test_" + std::to_string(getpid()) + "_" + std::to_string(counter++));
-  fs::create_directories(path_);
-}
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 Rig small_rig() {
   Rig rig;

@@ -24,21 +24,11 @@
 #include "dataset/flight_log.hpp"
 #include "dataset/messages/livox_custom_msg.hpp"
 #include "geometry/geodesy.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight::testing {
 
-/// A folder of this test process, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using test::ScratchFolder;
 
 /// The message of the exception that `body` throws; empty if it throws none of this type.
 template <class Error>

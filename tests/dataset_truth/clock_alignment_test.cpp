@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include <opencv2/core.hpp>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +13,7 @@
 #include "geometry/frames.hpp"
 #include "sim/flight_recorder.hpp"
 #include "sim/simulated_flight.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/tools/tool_runner.hpp"
 
 namespace alight {
@@ -52,16 +53,12 @@ sim::SimConfig flight_config() {
 class ClockAlignmentTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    if (!folder().empty()) return;
-    folder() = fs::temp_directory_path() / ("alight_clocks_" + std::to_string(getpid()));
-    fs::remove_all(folder());
+    if (scratch_) return;
+    scratch_ = std::make_unique<test::ScratchFolder>();
     const sim::SimConfig config = flight_config();
     sim::FlightRecorder(config, folder()).record(config.flights.front());
   }
-  static fs::path& folder() {
-    static fs::path path;
-    return path;
-  }
+  static fs::path folder() { return scratch_->path(); }
   static fs::path log() { return folder() / "flight.bag"; }
   static Rig true_rig() { return sim::true_rig(load_rig(flight_config().rig), flight_config().sensors); }
   static FlightViews read(const fs::path& bag, const Rig& rig) { return read_flight_views(bag, rig, {}, {}); }
@@ -76,14 +73,9 @@ class ClockAlignmentTest : public ::testing::Test {
     sim::FlightRecorder(config, folder()).record(flight);
     return read(folder() / "hover.bag", true_rig());
   }
-};
 
-struct RemoveFolder : ::testing::Environment {
-  void TearDown() override {
-    fs::remove_all(fs::temp_directory_path() / ("alight_clocks_" + std::to_string(getpid())));
-  }
+  inline static std::unique_ptr<test::ScratchFolder> scratch_;  // until the program ends
 };
-const auto* const kRemoveFolder = ::testing::AddGlobalTestEnvironment(new RemoveFolder);
 
 /// Milliseconds by which the rig file is wrong: what has to be found.
 struct Offsets {

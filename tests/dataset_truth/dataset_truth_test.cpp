@@ -4,12 +4,12 @@
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "dataset/dataset_builder.hpp"
 #include "sim/flight_recorder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -68,13 +68,6 @@ Agreement agreement(const fs::path& data, const FlightEntry& flight) {
 
 class DatasetTruth : public ::testing::Test {
  protected:
-  DatasetTruth() : folder_(fs::temp_directory_path() / ("alight_dataset_truth_" + std::to_string(getpid()))) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    rig_file_ = (fs::path(ALIGHT_SOURCE_DIR) / "configs" / "rigs" / "paper.yaml").string();
-  }
-  ~DatasetTruth() override { fs::remove_all(folder_); }
-
   /// A noiseless flight over houses, trees and fields.
   fs::path fly(const sim::FlightPlanConfig& plan) {
     sim::SimConfig config;
@@ -108,8 +101,9 @@ class DatasetTruth : public ::testing::Test {
     return result;
   }
 
-  fs::path folder_;
-  std::string rig_file_;
+  const test::ScratchFolder scratch_;
+  const fs::path folder_ = scratch_.path();
+  const std::string rig_file_ = (fs::path(ALIGHT_SOURCE_DIR) / "configs" / "rigs" / "paper.yaml").string();
 };
 
 void expect_true(const Agreement& agreement) {

@@ -11,7 +11,6 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -21,6 +20,7 @@
 #include "dataset/flight_log.hpp"
 #include "dataset/messages/livox_custom_msg.hpp"
 #include "sim/flight_recorder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 /// One simulated flight as two vehicles would record it: the paper's, and one with other messages, topics, clocks and
 /// ways to write its calibration down. Two configurations read the same depth maps out of both.
@@ -172,9 +172,6 @@ void compare(const Sample& a, const Sample& b, Difference& difference) {
 
 class OtherRig : public ::testing::Test {
  protected:
-  OtherRig() { fs::create_directories(folder_); }
-  ~OtherRig() override { fs::remove_all(folder_); }
-
   fs::path fly() {
     sim::SimConfig config;
     config.rig = (fs::path(ALIGHT_SOURCE_DIR) / "configs" / "rigs" / "paper.yaml").string();
@@ -204,7 +201,8 @@ class OtherRig : public ::testing::Test {
     return build_dataset(config, load_rig(find_rig_file(config.rig, file)), {log}, data).info;
   }
 
-  fs::path folder_ = fs::temp_directory_path() / ("alight_other_rig_" + std::to_string(getpid()));
+  const test::ScratchFolder scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 TEST_F(OtherRig, OtherMessagesTopicsClocksAndCalibrationFormsGiveTheSameDepthMaps) {

@@ -4,12 +4,12 @@
 #include <fstream>
 
 #include <opencv2/imgcodecs.hpp>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -24,9 +24,7 @@ constexpr int kHeight = 5;
 /// Two flights on disk: "a" stereo with true depth and three samples, "b" mono with one sample.
 class DepthDatasetTest : public ::testing::Test {
  protected:
-  DepthDatasetTest()
-      : dir_(fs::temp_directory_path() / ("alight_depth_dataset_" + std::to_string(getpid()))) {
-    fs::remove_all(dir_);
+  DepthDatasetTest() {
     DatasetInfo info;
     info.rig.intrinsics = {440, 441, 3, 2, kWidth, kHeight};
     info.rig.baseline_m = 0.08;
@@ -35,7 +33,6 @@ class DepthDatasetTest : public ::testing::Test {
     for (const FlightEntry& flight : info.flights) write_flight(flight);
     write_dataset_info(dir_, info);
   }
-  ~DepthDatasetTest() override { fs::remove_all(dir_); }
 
   /// Sample i: blue 10 + i, green 20, red 30; depth 8 + i at (u, v) = (4, 1), 0.25 s before the image.
   void write_flight(const FlightEntry& flight) {
@@ -76,7 +73,8 @@ class DepthDatasetTest : public ::testing::Test {
     }
     return {};
   }
-  fs::path dir_;
+  const test::ScratchFolder scratch_;
+  const fs::path dir_ = scratch_.path();
 };
 
 TEST_F(DepthDatasetTest, ShapesAndTypes) {

@@ -35,6 +35,4 @@ class RankProcess {
   std::filesystem::path log_;
 };
 
-int free_port();
-
 }  // namespace alight::test

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -25,11 +25,6 @@ cv::Mat row_of(const std::vector<T>& values) {
 
 class DepthFile : public ::testing::Test {
  protected:
-  DepthFile() : dir_(fs::path(::testing::TempDir()) / ("alight_depth_file_" + std::to_string(getpid()))) {
-    fs::create_directories(dir_);
-  }
-  ~DepthFile() override { fs::remove_all(dir_); }
-
   std::string mistake(const fs::path& path) {
     try {
       read_depth_file(path);
@@ -39,7 +34,7 @@ class DepthFile : public ::testing::Test {
     return "none";
   }
 
-  fs::path dir_;
+  const test::ScratchFolder dir_;
 };
 
 TEST_F(DepthFile, PngIsInSteps) {

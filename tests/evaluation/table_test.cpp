@@ -5,12 +5,12 @@
 #include <sstream>
 
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -78,8 +78,7 @@ TEST(Table, JsonHasEveryFlight) {
 }
 
 TEST(Table, TheExtensionChoosesTheFormat) {
-  const fs::path dir = fs::path(::testing::TempDir()) / ("alight_table_" + std::to_string(getpid()));
-  fs::create_directories(dir);
+  const test::ScratchFolder dir;
   for (const auto& [file, text] : {std::pair{"t.md", to_markdown(small_report())},
                                    {"t.csv", to_csv(small_report())},
                                    {"t.json", to_json(small_report())}}) {
@@ -91,7 +90,6 @@ TEST(Table, TheExtensionChoosesTheFormat) {
   EXPECT_THROW(check_table_path(dir / "t.txt"), ConfigError);
   EXPECT_THROW(check_table_path(dir / "t"), ConfigError);
   EXPECT_THROW(check_table_path(dir / "nowhere" / "t.md"), DataError);
-  fs::remove_all(dir);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "train/evaluation/worst_samples.hpp"
 
 #include <opencv2/imgcodecs.hpp>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/evaluation/scenes.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(WorstSamples, TheWorstAreDrawnInOrder) {
-  const fs::path dir = fs::path(::testing::TempDir()) / ("alight_worst_" + std::to_string(getpid()));
-  fs::create_directories(dir);
+  const test::ScratchFolder scratch;
+  const fs::path& dir = scratch.path();
   auto source = test::scenes(3);
   DepthMethods methods;
   // Sample 1 errs most, sample 0 least.
@@ -32,7 +32,6 @@ TEST(WorstSamples, TheWorstAreDrawnInOrder) {
   for (const auto& entry : fs::directory_iterator(dir)) files.push_back(entry.path().filename().string());
   EXPECT_THAT(files, ::testing::UnorderedElementsAre("01_a_1.png", "02_b_2.png"));
   EXPECT_GE(cv::imread((dir / "01_a_1.png").string()).cols, 5 * 48);
-  fs::remove_all(dir);
 }
 
 TEST(WorstSamples, TheErrorPanelIsBrightWhereTheErrorIsLarge) {

@@ -6,8 +6,6 @@
 #include <optional>
 #include <string>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include "geometry/frames.hpp"
@@ -16,6 +14,7 @@
 #ifdef ALIGHT_FAULTS_WITH_NETWORK
 #include "infer/network_predictor.hpp"
 #include "infer/replay.hpp"
+#include "tests/support/scratch_folder.hpp"
 #endif
 
 namespace alight {
@@ -57,10 +56,8 @@ class Faults : public ::testing::TestWithParam<std::size_t> {
   /// Called for the plain tests and for the parametrised ones: flies for the first of them.
   static void SetUpTestSuite() {
     if (truth_) return;
-    const fs::path folder = fs::temp_directory_path() / ("alight_faults_" + std::to_string(getpid()));
-    fs::create_directories(folder);
-    truth_ = std::make_unique<SimulatedTruth>(folder);
-    fs::remove_all(folder);
+    const test::ScratchFolder folder;
+    truth_ = std::make_unique<SimulatedTruth>(folder.path());
     if (const char* path = std::getenv("ALIGHT_FAULT_TABLE")) table_.open(path);
   }
 

@@ -3,13 +3,13 @@
 #include <fstream>
 
 #include <opencv2/core/persistence.hpp>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "geometry/rig.hpp"
 #include "geometry/stereo_rectification.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -20,9 +20,6 @@ using ::testing::HasSubstr;
 
 class CalibrationFile : public ::testing::Test {
  protected:
-  CalibrationFile() { fs::create_directories(folder_); }
-  ~CalibrationFile() override { fs::remove_all(folder_); }
-
   fs::path file(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
@@ -36,7 +33,7 @@ class CalibrationFile : public ::testing::Test {
     }
     return "";
   }
-  fs::path folder_ = fs::temp_directory_path() / ("alight_calibration_file_" + std::to_string(getpid()));
+  const test::ScratchFolder folder_;
 };
 
 /// As ROS's camera_calibration writes it.

@@ -7,6 +7,7 @@
 #include "geometry/depth_map.hpp"
 #include "models/checkpoint.hpp"
 #include "tests/models/tiny_net.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -31,13 +32,12 @@ class NetworkPredictor : public testing::TestWithParam<DepthKind> {
     config.depth_kind = GetParam();
     net_ = DepthCompletionNet(config);
     net_->eval();
-    path_ = fs::path(testing::TempDir()) / "alight_network_predictor.pt";
     save_checkpoint(path_, net_);
   }
-  void TearDown() override { fs::remove(path_); }
 
   DepthCompletionNet net_{nullptr};
-  fs::path path_;
+  const test::ScratchFolder folder_;
+  const fs::path path_ = folder_ / "net.pt";
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, NetworkPredictor,
                          testing::Values(DepthKind::kPlane, DepthKind::kPerspective));
@@ -85,7 +85,8 @@ TEST(NetworkPredictorPrior, HeightAttitudeAndRightImageReachTheNetwork) {
   DepthCompletionConfig config = test::tiny_config();
   config.prior = Prior::kAltitude;
   config.stereo = true;
-  const fs::path path = fs::path(testing::TempDir()) / "alight_stereo_predictor.pt";
+  const test::ScratchFolder folder;
+  const fs::path path = folder / "net.pt";
   save_checkpoint(path, DepthCompletionNet(config));
   const auto predictor = make_network_predictor(path, rig(), kFloat32);
   PredictorView view{cv::Mat(52, 70, CV_8UC3)};
@@ -101,7 +102,6 @@ TEST(NetworkPredictorPrior, HeightAttitudeAndRightImageReachTheNetwork) {
   EXPECT_LT(cv::mean(low)[0], 0.5 * unknown_m) << "an untrained network starts near its prior";
   view.left.copyTo(view.right);
   EXPECT_GT(cv::norm(depth_m(), low, cv::NORM_INF), 0) << "the right image changes nothing";
-  fs::remove(path);
 }
 
 TEST_P(NetworkPredictor, GreyImagesWorkAndWrongSizesAreRefused) {

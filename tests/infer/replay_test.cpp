@@ -13,6 +13,7 @@
 #include "infer/overlay.hpp"
 #include "tests/infer/bag_of_flight.hpp"
 #include "tests/infer/fakes.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -43,18 +44,14 @@ std::string text_of(const fs::path& path) {
 class Replay : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("alight_replay_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     fakes::LevelWorld world(kFlown_m);
     const auto messages = fakes::flight(world, {2.0});
     fakes::write_bag((folder_ / "flight.bag").string(), rig_, messages);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   Rig rig_ = fakes::small_rig();
-  fs::path folder_;
+  const test::ScratchFolder scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 TEST_F(Replay, WritesOneLineAnImagePicturesAndTheConfiguration) {

@@ -13,6 +13,7 @@
 #include "configs/config_reader.hpp"
 #include "configs/errors.hpp"
 #include "tests/models/tiny_net.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -24,15 +25,7 @@ using testing::HasSubstr;
 
 class Checkpoint : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        fs::temp_directory_path() /
-        ("alight_checkpoint_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    torch::manual_seed(7);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { torch::manual_seed(7); }
 
   static std::string bytes(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
@@ -48,7 +41,7 @@ class Checkpoint : public testing::Test {
     return "no DataError";
   }
 
-  fs::path folder_;
+  const test::ScratchFolder folder_;
 };
 
 void train_step(DepthCompletionNet net, torch::optim::Adam& adam, int seed) {
@@ -90,7 +83,7 @@ TEST_F(Checkpoint, EqualNetworksAreEqualFiles) {
     save_checkpoint(folder_ / name, net, {}, {net, &adam});
   }
   EXPECT_EQ(bytes(folder_ / "a.pt"), bytes(folder_ / "b.pt"));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 2);
 }
 
 TEST_F(Checkpoint, ResumedOptimizerEqualsUninterrupted) {
@@ -146,9 +139,7 @@ TEST_F(Checkpoint, WithoutTrainingStateNothingIsResumed) {
   DepthCompletionNet net(tiny_config());
   save_checkpoint(folder_ / "net.pt", net);
   torch::optim::Adam adam(net->parameters(), 1e-3);
-  EXPECT_THAT(data_error([&] {
-                load_training(folder_ / "net.pt", net, {net, &adam});
-              }),
+  EXPECT_THAT(data_error([&] { load_training(folder_ / "net.pt", net, {net, &adam}); }),
               HasSubstr("holds no training state"));
 }
 
@@ -161,13 +152,12 @@ TEST_F(Checkpoint, FullDiskLeavesTheFileBeforeAsItWas) {
   const rlimit small{1000, unlimited.rlim_max};
   signal(SIGXFSZ, SIG_IGN);  // writing past the limit is then an error, as on a full disk
   setrlimit(RLIMIT_FSIZE, &small);
-  const std::string message = data_error([&] {
-    save_checkpoint(folder_ / "net.pt", net, {1, 1, "x", 0, {}});
-  });
+  const std::string message =
+      data_error([&] { save_checkpoint(folder_ / "net.pt", net, {1, 1, "x", 0, {}}); });
   setrlimit(RLIMIT_FSIZE, &unlimited);
   EXPECT_THAT(message, HasSubstr("net.pt"));
   EXPECT_EQ(bytes(folder_ / "net.pt"), before);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
 }
 
 TEST_F(Checkpoint, OtherNetworkNamesTheFirstTensorAndBothShapes) {
@@ -190,7 +180,7 @@ TEST_F(Checkpoint, WhatIsNoCheckpointIsRefused) {
   EXPECT_THAT(data_error([&] { load_network(folder_ / "empty.pt"); }), HasSubstr("not a checkpoint"));
   torch::save(torch::ones({3}), (folder_ / "tensor.pt").string());
   EXPECT_THAT(data_error([&] { load_network(folder_ / "tensor.pt"); }), HasSubstr("not a checkpoint"));
-  EXPECT_THAT(data_error([&] { load_network(folder_); }), HasSubstr("no such file"));
+  EXPECT_THAT(data_error([&] { load_network(folder_.path()); }), HasSubstr("no such file"));
 }
 
 TEST_F(Checkpoint, CutFileIsRefused) {

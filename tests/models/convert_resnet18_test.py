@@ -1,5 +1,5 @@
 """The image encoder computes what ResNet-18 computes, given its converted weights: convert_resnet18_test.py
-PEER_SAMPLES FOLDER. torchvision's weights have random numbers here; its network is written out below.
+PEER_SAMPLES. torchvision's weights have random numbers here; its network is written out below.
 
 Exit code 77: torch is missing.
 """
@@ -7,6 +7,7 @@ Exit code 77: torch is missing.
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 try:
     import torch
@@ -115,11 +116,10 @@ def check_refusals(folder):
 
 
 def main():
-    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
-    folder.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(3)
-    check_features(program, folder)
-    check_refusals(folder)
+    with tempfile.TemporaryDirectory() as work:
+        check_features(sys.argv[1], pathlib.Path(work))
+        check_refusals(pathlib.Path(work))
 
 
 main()

@@ -1,11 +1,12 @@
-"""scripts/model.py computes what the C++ network computes: model_py_test.py PEER_SAMPLES FOLDER.
+"""scripts/model.py computes what the C++ network computes: model_py_test.py PEER_SAMPLES.
 
-PEER_SAMPLES is the program that writes checkpoints, inputs and depths into FOLDER. Exit code 77: torch is missing.
+PEER_SAMPLES is the program that writes checkpoints, inputs and depths. Exit code 77: torch is missing.
 """
 
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 try:
     import torch
@@ -51,8 +52,7 @@ def errors_of(checkpoint):
     return errors
 
 
-def main():
-    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+def compare(program, folder):
     subprocess.run([program, str(folder)], check=True)
     checkpoints = sorted(p for p in folder.glob("*.pt") if not p.name.endswith(".tensors.pt"))
     assert len(checkpoints) >= 6, f"only {len(checkpoints)} checkpoints in {folder}"
@@ -64,4 +64,5 @@ def main():
     sys.exit("model.py and C++ disagree" if failed else 0)
 
 
-main()
+with tempfile.TemporaryDirectory() as work:
+    compare(sys.argv[1], pathlib.Path(work))

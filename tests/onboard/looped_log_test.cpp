@@ -6,13 +6,15 @@
 
 #include "tests/infer/bag_of_flight.hpp"
 #include "tests/infer/fakes.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
 namespace fs = std::filesystem;
 
 TEST(LoopedLog, TimesGoOnOverTheRounds) {
-  const fs::path path = fs::path(testing::TempDir()) / "alight_looped.bag";
+  const test::ScratchFolder folder;
+  const fs::path path = folder / "flight.bag";
   const Rig rig = fakes::small_rig();
   fakes::LevelWorld world(12.0);
   fakes::write_bag(path.string(), rig, fakes::flight(world, {1.0}));
@@ -36,7 +38,6 @@ TEST(LoopedLog, TimesGoOnOverTheRounds) {
     for (std::size_t i = 1; i < times_ns->size(); ++i) EXPECT_GT((*times_ns)[i], (*times_ns)[i - 1]);
   }
   EXPECT_EQ(log.consumed(), log.messages());
-  fs::remove(path);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "infer/recorder/explanation.hpp"
 
+#include <memory>
+
 #include <opencv2/imgcodecs.hpp>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
 #include "tests/recorder/recorded_flight.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -18,19 +20,20 @@ using ::testing::Test;
 class ExplanationOf : public Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::temp_directory_path() / ("alight_explanation_" + std::to_string(getpid()));
-    fs::remove_all(folder_);
+    scratch_ = std::make_unique<test::ScratchFolder>();
+    folder_ = scratch_->path() / "record";
     RecorderConfig config;
     config.max_waiting = 1000;
     fakes::record_flight(folder_, config, 1.5);
   }
-  static void TearDownTestSuite() { fs::remove_all(folder_); }
+  static void TearDownTestSuite() { scratch_.reset(); }
 
   static std::string text_at(double s) { return explain(folder_, kStart_ns + to_nanoseconds(s)).text; }
   static void expect_in(const std::string& part, const std::string& text) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
   }
 
+  inline static std::unique_ptr<test::ScratchFolder> scratch_;
   inline static fs::path folder_;
 };
 

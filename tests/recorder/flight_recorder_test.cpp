@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/recorder/recorded_flight.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -18,11 +19,6 @@ namespace fs = std::filesystem;
 
 class Recorder : public ::testing::Test {
  protected:
-  Recorder() : folder_(fs::temp_directory_path() / ("alight_recorder_" + std::to_string(getpid()))) {
-    fs::remove_all(folder_);
-  }
-  ~Recorder() override { fs::remove_all(folder_); }
-
   std::vector<Record> of(RecordKind kind) const {
     std::vector<Record> found;
     for (Record& record : read_segments(folder_).records) {
@@ -31,7 +27,8 @@ class Recorder : public ::testing::Test {
     return found;
   }
 
-  fs::path folder_;
+  const test::ScratchFolder scratch_;
+  const fs::path folder_ = scratch_ / "record";
 };
 
 TEST_F(Recorder, KeepsEveryResultAndEveryChangeOfHealth) {
@@ -91,8 +88,9 @@ TEST_F(Recorder, ASlowDiskCostsTheOldestResultsAndIsCounted) {
   FlightRecorder recorder(config, folder_, fakes::small_settings());
   FrameReport frame;
   frame.depth.left = cv::Mat::zeros(144, 160, CV_8UC1);
-  for (int i = 0; i < 2000; ++i) {
-    frame.depth.t_ns = i;
+  const SteadyTime begin = steady_now();
+  while (recorder.statistics().lost == 0 && milliseconds(begin, steady_now()) < 60'000) {
+    ++frame.depth.t_ns;
     recorder.on_frame(frame);
   }
   EXPECT_GT(recorder.statistics().lost, 0);

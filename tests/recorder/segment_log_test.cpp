@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -20,11 +21,6 @@ namespace fs = std::filesystem;
 
 class SegmentLog : public ::testing::Test {
  protected:
-  SegmentLog() : folder_(fs::temp_directory_path() / ("alight_segments_" + std::to_string(getpid()))) {
-    fs::remove_all(folder_);
-  }
-  ~SegmentLog() override { fs::remove_all(folder_); }
-
   static Record record(int i, std::size_t size = 100) {
     return {RecordKind::kFrame, i, std::string(size, static_cast<char>('a' + i % 26))};
   }
@@ -50,7 +46,8 @@ class SegmentLog : public ::testing::Test {
     return numbers;
   }
 
-  fs::path folder_;
+  const test::ScratchFolder scratch_;
+  const fs::path folder_ = scratch_ / "record";
 };
 
 TEST_F(SegmentLog, RecordsComeBackAsTheyWere) {

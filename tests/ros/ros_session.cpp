@@ -9,12 +9,9 @@
 #include <thread>
 #include <utility>
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
 #include <ros/master.h>
 #include <ros/node_handle.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,32 +19,22 @@ namespace alight::test {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kMasterTimeout_s = 20;
-constexpr double kEndTimeout_s = 5;
+constexpr double kMasterTimeout_s = 60;
+constexpr double kEndTimeout_s = 20;
 
-int free_port() {
-  const int listener = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  const bool found = bind(listener, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
-                     getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-  close(listener);
-  if (!found) throw std::runtime_error("no free port");
-  return ntohs(address.sin_port);
-}
-
-/// The environment that every program of the session inherits. @returns the port
-std::string prepare_environment(const fs::path& folder) {
-  const std::string port = std::to_string(free_port());
+/// The environment that every program of the session inherits.
+void prepare_environment(const fs::path& folder, const std::string& port) {
   setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + port).c_str(), 1);
   setenv("ROS_IP", "127.0.0.1", 1);
   unsetenv("ROS_HOSTNAME");
   unsetenv("ROS_NAMESPACE");
   setenv("ROS_HOME", folder.c_str(), 1);
   setenv("ROS_LOG_DIR", (folder / "log").c_str(), 1);
-  return port;
+}
+
+std::vector<std::string> master_command(const fs::path& folder, const ReservedPort& port) {
+  prepare_environment(folder, std::to_string(port.number()));
+  return {"/usr/bin/roscore", "-p", std::to_string(port.number())};
 }
 
 }  // namespace
@@ -111,7 +98,7 @@ bool ros_is_installed() {
 }
 
 RosSession::RosSession(const fs::path& folder)
-    : master_({"/usr/bin/roscore", "-p", prepare_environment(folder)}, folder / "roscore.log") {
+    : master_(master_command(folder, port_), folder / "roscore.log") {
   int argc = 0;
   ros::init(argc, nullptr, "alight_test", ros::init_options::NoSigintHandler);
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kMasterTimeout_s);

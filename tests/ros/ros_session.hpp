@@ -9,6 +9,8 @@
 #include <ros/init.h>
 #include <sys/types.h>
 
+#include "tests/support/reserved_port.hpp"
+
 namespace alight::test {
 
 /// A program in a process group of its own, ended with this object. What it says goes to a file.
@@ -33,7 +35,7 @@ class Program {
 /// Whether a ROS master and rosbag's player are installed.
 bool ros_is_installed();
 
-/// A ROS master of its own on a free loopback port; this process becomes a node of it.
+/// A ROS master of its own on a loopback port that the kernel gave; this process becomes a node of it.
 class RosSession {
  public:
   explicit RosSession(const std::filesystem::path& folder);
@@ -42,6 +44,7 @@ class RosSession {
   RosSession& operator=(const RosSession&) = delete;
 
  private:
+  ReservedPort port_;
   Program master_;
 };
 

@@ -31,6 +31,7 @@
 #include "sim/message_schedule.hpp"
 #include "sim/sensor_messages.hpp"
 #include "sim/simulated_flight.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight::sim {
 namespace {
@@ -59,13 +60,7 @@ Rig small_rig() {
 
 class FlightRecorderTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "flight_recorder" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    std::ofstream(rig_file()) << format_rig(small_rig());
-  }
+  FlightRecorderTest() { std::ofstream(rig_file()) << format_rig(small_rig()); }
   std::string rig_file() const { return (folder_ / "rig.yaml").string(); }
 
   /// One second over a small field, straight on while turning.
@@ -80,7 +75,7 @@ class FlightRecorderTest : public testing::Test {
   fs::path bag_path(const std::string& output = "out") const { return folder_ / output / "quick.bag"; }
   fs::path truth_path(const std::string& output = "out") const { return folder_ / output / "quick.truth"; }
 
-  fs::path folder_;
+  const test::ScratchFolder folder_;
 };
 
 /// Bag time and content of every message of a topic.

@@ -12,6 +12,7 @@
 
 #include "configs/errors.hpp"
 #include "geometry/rig.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight::sim {
 namespace {
@@ -24,9 +25,6 @@ constexpr std::int64_t kStamp_ns = 1'700'000'000'013'000'000;
 class FlightScoreTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "flight_score" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
     fs::create_directories(truth() / "safe");
     cv::Mat safe = cv::Mat::zeros(400, 640, CV_8UC1);
     cv::circle(safe, {300, 200}, 60, cv::Scalar(255), cv::FILLED);
@@ -54,7 +52,7 @@ class FlightScoreTest : public testing::Test {
   }
   void write(const std::string& text) const { std::ofstream(results()) << text; }
 
-  fs::path folder_;
+  const test::ScratchFolder folder_;
 };
 
 TEST_F(FlightScoreTest, CountsSafeAndUnsafeSites) {
@@ -99,7 +97,7 @@ TEST_F(FlightScoreTest, RefusesDamagedLines) {
   write("");
   EXPECT_THROW(score_flight(truth(), results()), DataError);
   EXPECT_THROW(score_flight(truth(), folder_ / "absent.jsonl"), DataError);
-  EXPECT_THROW(score_flight(folder_, results()), DataError);
+  EXPECT_THROW(score_flight(folder_.path(), results()), DataError);
 }
 
 TEST(SafeShare, CountsPixelsOutsideTheImageAsUnsafe) {

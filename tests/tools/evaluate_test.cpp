@@ -49,13 +49,14 @@ TEST(Evaluate, WritesATableAndPicturesOfANetworkBesideTheBaselines) {
 }
 
 TEST(Evaluate, MistakesAreNamedBeforeTheWorkBegins) {
-  const std::string out = " --output " + (test_folder() / "t.csv").string();
+  const fs::path folder = test_folder();
+  const std::string out = " --output " + (folder / "t.csv").string();
   const auto expect = [](const std::string& command, int exit_code, const std::string& words) {
     const ToolRun run = run_tool(command);
     EXPECT_EQ(run.exit_code, exit_code) << command << "\n" << run.out;
     EXPECT_THAT(run.out, HasSubstr(words)) << command;
   };
-  expect(on_quick("--output /tmp/table.txt"), 2, ".md, .csv or .json");
+  expect(on_quick("--output " + (folder / "table.txt").string()), 2, ".md, .csv or .json");
   expect(on_quick("--output /no/such/folder/t.md"), 1, "/no/such/folder");
   expect("alight-evaluate" + out, 2, "--data is missing");
   expect(on_quick(""), 2, "--output is missing");
@@ -65,7 +66,7 @@ TEST(Evaluate, MistakesAreNamedBeforeTheWorkBegins) {
   expect(on_quick("--flights quik" + out), 2, "no flight \"quik\"; the data set has quick");
   expect(on_quick("--checkpoint /no/net.pt" + out), 1, "/no/net.pt");
   expect(on_quick("--part unknown" + out), 2, "no sample is left");
-  const fs::path train = test_folder() / "train.yaml";
+  const fs::path train = folder / "train.yaml";
   std::ofstream(train) << "split: {unknown_flights: [quik]}\n";
   expect(on_quick("--part unknown --split " + train.string() + out), 2, "no flight \"quik\"");
 }

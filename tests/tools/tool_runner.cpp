@@ -5,9 +5,10 @@
 #include <stdexcept>
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight::test {
 namespace fs = std::filesystem;
@@ -25,10 +26,19 @@ ToolRun run_tool(const std::string& command_line) {
   return run;
 }
 
+namespace {
+
+/// Of this process; removed at its end.
+const fs::path& process_folder() {
+  static const ScratchFolder folder;
+  return folder.path();
+}
+
+}  // namespace
+
 fs::path test_folder() {
   const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  fs::path folder =
-      fs::path(::testing::TempDir()) / ("alight_tools_" + std::to_string(getpid())) / info->name();
+  fs::path folder = process_folder() / (std::string(info->test_suite_name()) + "." + info->name());
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
@@ -36,9 +46,7 @@ fs::path test_folder() {
 
 const fs::path& quick_flight() {
   static const fs::path folder = [] {
-    const fs::path path =
-        fs::path(::testing::TempDir()) / ("alight_tools_" + std::to_string(getpid())) / "quick_flight";
-    fs::remove_all(path);
+    const fs::path path = process_folder() / "quick_flight";
     const ToolRun run = run_tool("alight-sim --config configs/sim/quick.yaml --output " + path.string());
     if (run.exit_code != 0) throw std::runtime_error("alight-sim failed: " + run.out);
     return path;
@@ -48,8 +56,7 @@ const fs::path& quick_flight() {
 
 const fs::path& quick_dataset() {
   static const fs::path folder = [] {
-    const fs::path path = quick_flight().parent_path() / "quick_dataset";
-    fs::remove_all(path);
+    const fs::path path = process_folder() / "quick_dataset";
     const ToolRun run = run_tool("alight-dataset build --config configs/dataset/default.yaml --log " +
                                  (quick_flight() / "quick.bag").string() + " --output " + path.string());
     if (run.exit_code != 0) throw std::runtime_error("alight-dataset failed: " + run.out);

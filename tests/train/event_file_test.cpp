@@ -14,6 +14,7 @@
 
 #include "configs/errors.hpp"
 #include "event_reader.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "train/wire_message.hpp"
 
 namespace alight {
@@ -47,8 +48,6 @@ class FullDisk {
 
 class EventFileTest : public testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
   EventFile open(std::optional<std::int64_t> continue_after_step = {}) const {
     return EventFile(folder_, continue_after_step, [] { return 1700000000.25; });
   }
@@ -62,7 +61,8 @@ class EventFileTest : public testing::Test {
   /// The Summary.Value of the last event.
   static Fields last_value(EventFile& file) { return decode(decode(events(file).back().text(5)).text(1)); }
 
-  const fs::path folder_ = fs::temp_directory_path() / "alight_event_file" / "run";
+  const test::ScratchFolder scratch_;
+  const fs::path folder_ = scratch_ / "run";
 };
 
 /// protobuf.dev, "Encoding": field 1 = 150 is 08 96 01, field 2 = "testing" is 12 07 74 65 73 74 69 6e 67; the rest by
@@ -199,7 +199,6 @@ TEST_F(EventFileTest, FullDiskNamesTheFile) {
 }
 
 TEST_F(EventFileTest, FolderThatCannotBeMadeIsNamed) {
-  fs::create_directories(folder_.parent_path());
   std::ofstream{folder_};  // a file is in the way
   EXPECT_THROW(open(), DataError);
 }

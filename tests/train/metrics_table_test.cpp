@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -17,7 +18,6 @@ using ::testing::HasSubstr;
 
 class MetricsTableTest : public testing::Test {
  protected:
-  void TearDown() override { fs::remove(file_); }
   MetricsTable read(const std::string& content) const {
     std::ofstream(file_) << content;
     return read_metrics(file_);
@@ -31,7 +31,8 @@ class MetricsTableTest : public testing::Test {
       EXPECT_THAT(e.what(), HasSubstr(cause));
     }
   }
-  const fs::path file_ = fs::temp_directory_path() / "alight_metrics_table.csv";
+  const test::ScratchFolder folder_;
+  const fs::path file_ = folder_ / "metrics.csv";
 };
 
 TEST_F(MetricsTableTest, ReadsColumns) {

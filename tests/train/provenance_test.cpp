@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -17,7 +18,6 @@ using ::testing::HasSubstr;
 class DataHash : public testing::Test {
  protected:
   void SetUp() override {
-    fs::remove_all(folder_);
     for (const char* flight : {"a", "b"}) fs::create_directories(folder_ / flight / "left");
     write("dataset.yaml", "format_version: 1\n");
     write("a/samples.csv", "index\n0\n");
@@ -25,11 +25,11 @@ class DataHash : public testing::Test {
     write("a/left/000000.png", "pixels");
     write("b/left/000000.png", "others");
   }
-  void TearDown() override { fs::remove_all(folder_.parent_path()); }
   void write(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
   }
-  const fs::path folder_ = fs::temp_directory_path() / "alight_data_hash" / "data";
+  const test::ScratchFolder scratch_;
+  const fs::path folder_ = scratch_ / "data";
 };
 
 /// The same files and rule, worked out by a program of its own.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -13,15 +14,14 @@ namespace fs = std::filesystem;
 
 class RunFolderTest : public testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(path_); }
-  void TearDown() override { fs::remove_all(path_); }
   std::string text(const std::string& name) const {
     std::ifstream stream(path_ / name);
     std::stringstream content;
     content << stream.rdbuf();
     return content.str();
   }
-  const fs::path path_ = fs::temp_directory_path() / "alight_run_folder" / "run";
+  const test::ScratchFolder scratch_;
+  const fs::path path_ = scratch_ / "run";
 };
 
 TEST_F(RunFolderTest, WritesFilesAndMetrics) {
@@ -34,13 +34,17 @@ TEST_F(RunFolderTest, WritesFilesAndMetrics) {
 }
 
 TEST_F(RunFolderTest, RefusesAnEarlierRun) {
-  { RunFolder(path_).write("config.yaml", "seed: 1\n"); }
+  {
+    RunFolder(path_).write("config.yaml", "seed: 1\n");
+  }
   EXPECT_THROW(RunFolder{path_}, DataError);
   EXPECT_EQ(text("config.yaml"), "seed: 1\n");
 }
 
 TEST_F(RunFolderTest, OpensAnEarlierRunWhereAskedTo) {
-  { RunFolder(path_).write("config.yaml", "seed: 1\n"); }
+  {
+    RunFolder(path_).write("config.yaml", "seed: 1\n");
+  }
   EXPECT_TRUE(RunFolder(path_, RunFolder::Open::kExisting).has("config.yaml"));
   EXPECT_THROW(RunFolder(path_ / "absent", RunFolder::Open::kExisting), DataError);
 }

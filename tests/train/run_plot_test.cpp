@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "configs/errors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace alight {
 namespace {
@@ -19,11 +20,6 @@ using ::testing::HasSubstr;
 
 class RunPlot : public testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   fs::path run(const std::string& name, const std::string& metrics) const {
     fs::create_directories(folder_ / name);
     std::ofstream(folder_ / name / "metrics.csv") << metrics;
@@ -42,7 +38,7 @@ class RunPlot : public testing::Test {
     }
     return "no DataError";
   }
-  const fs::path folder_ = fs::temp_directory_path() / "alight_run_plot";
+  const test::ScratchFolder folder_;
   const fs::path png_ = folder_ / "curves.png";
 };
 

@@ -14,6 +14,7 @@
 #include "configs/errors.hpp"
 #include "models/checkpoint.hpp"
 #include "tests/models/tiny_net.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/train/memory_source.hpp"
 
 namespace alight {
@@ -38,8 +39,6 @@ TrainConfig tiny_training() {
 
 class TrainerTest : public testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(root_); }
-  void TearDown() override { fs::remove_all(root_); }
   std::string bytes(const std::string& name) const {
     std::ifstream stream(root_ / name, std::ios::binary);
     std::stringstream content;
@@ -52,7 +51,7 @@ class TrainerTest : public testing::Test {
     RunFolder folder(root_ / run);
     Trainer(config, training, &validation, folder).run();
   }
-  const fs::path root_ = fs::temp_directory_path() / "alight_trainer";
+  const test::ScratchFolder root_;
 };
 
 TEST_F(TrainerTest, SameSeedGivesTheSameFileBitForBit) {

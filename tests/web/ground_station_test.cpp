@@ -88,10 +88,10 @@ TEST_F(GroundStationTest, TheStateIsThatOfTheLatestResult) {
 }
 
 TEST_F(GroundStationTest, EveryLandingStateHasItsName) {
-  const auto shown = [this](const FrameReport& report) {
+  int number = 0;
+  const auto shown = [&](const FrameReport& report) {
     station_->on_frame(report);
-    std::this_thread::sleep_for(std::chrono::milliseconds(15));
-    return state()["frame"]["landing"]["state"].get<std::string>();
+    return state_of(++number)["frame"]["landing"]["state"].get<std::string>();
   };
   EXPECT_EQ(shown(reports::with_depth(1)), "looking");
   EXPECT_EQ(shown(reports::with_site(2, 5, true)), "accepted");
@@ -123,19 +123,24 @@ TEST_F(GroundStationTest, PicturesDecodeToTheCropsSize) {
 TEST_F(GroundStationTest, AViewerWhoWaitsGetsTheNextResult) {
   station_->on_frame(reports::with_depth(1));
   ASSERT_EQ(state()["number"], 1);
-  std::thread engine([this] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::atomic<bool> seen{false};
+  std::thread engine([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // so that mostly somebody waits
     station_->on_frame(reports::with_depth(2));
     // What meets a locked door goes with the next message.
-    for (int i = 0; i < 20; ++i) {
+    while (!seen) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       station_->on_message(AttitudeSample{});
     }
   });
-  auto answer = client().Get("/state?after=1");
+  Json json;
+  // Without a result for a second the answer is the last one; a busy computer may take longer.
+  for (int i = 0; i < 60 && json["number"] != 2; ++i) {
+    const auto answer = client().Get("/state?after=1");
+    if (answer) json = Json::parse(answer->body);
+  }
+  seen = true;
   engine.join();
-  ASSERT_TRUE(answer);
-  const Json json = Json::parse(answer->body);
   EXPECT_EQ(json["number"], 2);
   EXPECT_EQ(json["history"].size(), 1U);
 }
@@ -168,7 +173,7 @@ TEST_F(GroundStationTest, ViewersAtTheSameTimeSeeTheSame) {
   const SteadyTime begin = steady_now();
   int frames = 0;
   // At least 40 frames, more on a slow computer whose viewers have not got all they should.
-  while (frames < 40 || (pictures <= kViewers && milliseconds(begin, steady_now()) < 20'000)) {
+  while (frames < 40 || (pictures <= kViewers && milliseconds(begin, steady_now()) < 60'000)) {
     ++frames;
     station_->on_frame(reports::with_site(frames * 1000, frames, frames >= 5));
     station_->on_message(AttitudeSample{frames * 1000, {}});
@@ -181,25 +186,33 @@ TEST_F(GroundStationTest, ViewersAtTheSameTimeSeeTheSame) {
 }
 
 TEST_F(GroundStationTest, AClientThatStopsReadingDelaysNeitherTheEngineNorOthers) {
-  std::vector<int> sockets;
-  for (int i = 0; i < 4; ++i) {
-    sockets.push_back(connect_raw());
-    std::string requests;
-    for (int k = 0; k < 200; ++k) requests += "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";  // 4 MB of answers
-    EXPECT_GT(send(sockets.back(), requests.data(), requests.size(), MSG_NOSIGNAL), 0);
-  }
-  double longest_ms = 0;
-  const FrameReport report = reports::with_site(1, 5, true);
-  for (int i = 0; i < 200; ++i) {
-    const SteadyTime begin = steady_now();
-    station_->on_frame(report);
-    longest_ms = std::max(longest_ms, milliseconds(begin, steady_now()));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  // It takes microseconds; a computer with other work may take the processor away for a while.
-  EXPECT_LT(longest_ms, 500);
-  EXPECT_GT(state()["number"], 0);
-  for (const int socket : sockets) close(socket);
+  // After that the server lets such a client go; whoever waited for it would have waited about as long.
+  const double given_up_ms = HttpLimits().response_timeout_ms;
+  const auto longest_wait_ms = [this] {
+    std::vector<int> sockets;
+    for (int i = 0; i < 4; ++i) {
+      sockets.push_back(connect_raw());
+      std::string requests;
+      for (int k = 0; k < 200; ++k)
+        requests += "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";  // 4 MB of answers
+      EXPECT_GT(send(sockets.back(), requests.data(), requests.size(), MSG_NOSIGNAL), 0);
+    }
+    double longest_ms = 0;
+    const FrameReport report = reports::with_site(1, 5, true);
+    for (int i = 0; i < 200; ++i) {
+      const SteadyTime begin = steady_now();
+      station_->on_frame(report);
+      longest_ms = std::max(longest_ms, milliseconds(begin, steady_now()));
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_GT(state()["number"], 0);
+    for (const int socket : sockets) close(socket);
+    return longest_ms;
+  };
+  // A computer with other work may take the processor away for a while; such clients would delay it every time.
+  bool delayed = true;
+  for (int i = 0; i < 10 && delayed; ++i) delayed = longest_wait_ms() >= given_up_ms / 2;
+  EXPECT_FALSE(delayed);
 }
 
 TEST_F(GroundStationTest, EndsWhileClientsAreConnected) {
@@ -209,8 +222,14 @@ TEST_F(GroundStationTest, EndsWhileClientsAreConnected) {
   station_->on_frame(reports::with_depth(1));
   httplib::Client idle = client();
   ASSERT_TRUE(idle.Get("/state"));
-  std::thread waiting([this] { client().Get("/state?after=1"); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  std::atomic<int> asked{0};
+  std::thread waiting([&] {
+    httplib::Client viewer = client();
+    do ++asked;
+    while (viewer.Get("/state?after=1"));
+  });
+  while (asked < 2)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // it waits for the second time
   station_.reset();
   waiting.join();
   close(silent);

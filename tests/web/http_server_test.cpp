@@ -1,5 +1,6 @@
 #include "infer/web/http_server.hpp"
 
+#include <cerrno>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -44,11 +45,12 @@ TEST(HttpServer, EndsARequestThatDoesNotArriveInTime) {
   limits.request_timeout_ms = 50;
   HttpServer server(limits);
   const int socket = connect_to(server.start({"127.0.0.1", 0}));
-  EXPECT_EQ(send(socket, "GET /", 5, MSG_NOSIGNAL), 5);
+  // A busy computer may send it after the server has given up, which resets the connection.
+  const bool sent = send(socket, "GET /", 5, MSG_NOSIGNAL) == 5;
   char bytes[1024];
   ssize_t count = 0;
-  while ((count = recv(socket, bytes, sizeof bytes, 0)) > 0) continue;
-  EXPECT_EQ(count, 0);  // closed by the server
+  while (sent && (count = recv(socket, bytes, sizeof bytes, 0)) > 0) continue;
+  EXPECT_TRUE(count == 0 || errno == ECONNRESET) << "not closed by the server";
   close(socket);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 #include <sys/socket.h>
@@ -8,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "infer/onboard/steady_time.hpp"
 #include "infer/web/ground_station.hpp"
 #include "infer/web/http_server.hpp"
 #include "tests/web/connection.hpp"
@@ -49,6 +52,18 @@ class GroundStationTest : public testing::Test {
   Json state() const {
     auto answer = client().Get("/state");
     return answer && answer->status == 200 ? Json::parse(answer->body) : Json();
+  }
+  /// The state once it is that of a result; the last one asked for if it never is. What the engine could not hand over
+  /// while a viewer looked goes with its next message.
+  Json state_of(int number) const {
+    Json json = state();
+    const SteadyTime begin = steady_now();
+    while (json["number"] != number && milliseconds(begin, steady_now()) < 60'000) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      station_->on_message(AttitudeSample{});
+      json = state();
+    }
+    return json;
   }
   static httplib::Headers bearer(const std::string& token) { return {{"Authorization", "Bearer " + token}}; }
   int post_mode(const std::string& body, const httplib::Headers& headers) const {
