@@ -43,14 +43,14 @@ done
 
 require_tools() {
   local missing=() tool
-  for tool in clang++-14:clang-14 ld.lld-14:lld-14 cmake:cmake ninja:ninja-build dpkg-deb:dpkg apt-get:apt tar:tar; do
+  for tool in clang++:clang ld.lld:lld cmake:cmake ninja:ninja-build dpkg-deb:dpkg apt-get:apt tar:tar; do
     command -v "${tool%%:*}" >/dev/null || missing+=("${tool##*:}")
   done
   [ ${#missing[@]} -eq 0 ] || fail "tools are missing; apt-get install ${missing[*]}"
   local codename
   codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
   [ "$codename" = bookworm ] || fail "the packages would be those of this machine's release ($codename); \
-Alight is built against Debian 12 (bookworm)"
+build on Debian 12 (bookworm): that is what was tried"
 }
 
 # apt with a state of its own, below the root: the machine's package lists and database are not touched.

@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 mapfile -t files < <(git ls-files '*.cpp' '*.hpp')
 if [ "${1:-}" = --fix ]; then
-  clang-format-14 -i "${files[@]}"
+  clang-format-19 -i "${files[@]}"
 else
-  clang-format-14 --dry-run --Werror "${files[@]}"
+  clang-format-19 --dry-run --Werror "${files[@]}"
 fi

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Installs what Alight needs from Debian 12's package archive. Safe to run again; needs root or sudo.
+# Installs what Alight needs from the package archive of Debian 13 or 12: the names are the same, the versions are not. Safe to
+# run again; needs root or sudo.
 #   scripts/setup.sh          what the build and the tests need
 #   scripts/setup.sh --full   and what the comparisons with LibTorch's Python side, the ROS node's test and the test in a
 #                             browser need (else skipped)
+#   scripts/setup.sh --nightly  and what scripts/ci/nightly.sh needs
 set -euo pipefail
 
 packages=(
@@ -22,11 +24,18 @@ packages=(
 full_packages=(python3-torch python3-yaml python3-numpy python3-opencv chromium
                opencv-doc                     # real stereo images of a chessboard
                python3-roslaunch python3-rosmaster rosout)  # a ROS 1 master; python3-rosbag plays
+nightly_packages=(g++ clang-tidy debootstrap)
 
 case "${1:-}" in
   "") ;;
   --full) packages+=("${full_packages[@]}") ;;
-  *) echo "usage: scripts/setup.sh [--full]" >&2; exit 2 ;;
+  --nightly) packages+=("${full_packages[@]}" "${nightly_packages[@]}") ;;
+  *) echo "usage: scripts/setup.sh [--full | --nightly]" >&2; exit 2 ;;
+esac
+release=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
+case $release in
+  bookworm | trixie) ;;
+  *) echo "setup: this is $release, not Debian 13 (trixie) or 12 (bookworm); its packages may not fit" >&2 ;;
 esac
 
 missing=()
