@@ -101,7 +101,7 @@ struct Field {
 };
 
 template <class T>
-Field field(const char* key, T LandingResult::*member) {
+Field field(const char* key, T LandingResult::* member) {
   return {key, [member](const LandingResult& r) { return write(r.*member); },
           [member](const Json& json, LandingResult& r) { read(json, r.*member); }};
 }

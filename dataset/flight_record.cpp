@@ -36,7 +36,7 @@ void bind(Binder& b, RecordFile& c) {
 }  // namespace
 
 LogIdentity identify_log(const fs::path& log) {
-  struct stat status {};
+  struct stat status{};
   if (stat(log.c_str(), &status) != 0)
     throw DataError(log.string() + ": no such file; check the path of the log");
   return {status.st_size, status.st_mtim.tv_sec * kNanosecondsPerSecond + status.st_mtim.tv_nsec, {}};

@@ -213,13 +213,9 @@ const std::vector<Fault>& all_faults() {
       {"LiDAR frozen", "lidar", "frozen", "degraded", lidar_frozen},
       {"LiDAR rain", "lidar", "noise", "degraded", lidar_rain},
       {"LiDAR mirrored left-right", "lidar", "mirrored", "degraded",
-       [](T t) {
-         return lidar_mirrored(t, {1, -1, 1});
-       }},
+       [](T t) { return lidar_mirrored(t, {1, -1, 1}); }},
       {"LiDAR mirrored front-back", "lidar", "mirrored", "degraded",
-       [](T t) {
-         return lidar_mirrored(t, {1, 1, -1});
-       }},
+       [](T t) { return lidar_mirrored(t, {1, 1, -1}); }},
       {"LiDAR clock 2 s ahead", "lidar", "clock jump", "degraded",
        [](T t) { return stamps_shifted<LidarPacket>(t, 2); }},
       {"LiDAR clock 0.1 s behind", "", "", "", [](T t) { return stamps_shifted<LidarPacket>(t, -0.1); }},

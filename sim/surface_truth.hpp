@@ -49,9 +49,8 @@ class SurfaceTruth {
 
   const cv::Mat& elevation_m() const { return elevation_m_; }  ///< CV_32FC1, NaN where nothing was hit
   const cv::Mat& slope_rad() const { return slope_rad_; }      ///< CV_32FC1 of the local plane
-  const cv::Mat& residual_m() const {
-    return residual_m_;
-  }                                              ///< CV_32FC1, largest distance to the local plane
+  /// CV_32FC1, largest distance to the local plane
+  const cv::Mat& residual_m() const { return residual_m_; }
   const cv::Mat& safe() const { return safe_; }  ///< CV_8UC1, 255 = safe
   const cv::Mat& clearance_m() const {
     return clearance_m_;

@@ -40,7 +40,7 @@ constexpr StateText kTexts[] = {
     {S::kGivenUp, "", "given up", "hovers at search height until a person takes over"},
 };
 
-const char* text(S state, const char* StateText::*member) {
+const char* text(S state, const char* StateText::* member) {
   for (const StateText& row : kTexts) {
     if (row.state == state) return row.*member;
   }

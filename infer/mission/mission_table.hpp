@@ -57,7 +57,7 @@ const Transition* next_transition(MissionState state, GuardSet guards);
 /// One state's time-out; null: it has none.
 struct StateTimeout {
   MissionState state;
-  double MissionConfig::*limit_s;
+  double MissionConfig::* limit_s;
   const char* key;
 };
 const std::vector<StateTimeout>& state_timeouts();

@@ -193,8 +193,7 @@ TEST(PlaneFitSelection, UnknownAndUnconfidentGroundIsAHazard) {
 TEST(PlaneFitSelection, RoofsAreNotGround) {
   const PinholeIntrinsics k = camera_of(352, 352);
   cv::Mat depth = scenes::level_ground(k, 30);
-  scenes::change(
-      depth, k, 26, [](double x, double y) { return std::abs(x) < 4.5 && std::abs(y) < 4.5; }, 26);
+  scenes::change(depth, k, 26, [](double x, double y) { return std::abs(x) < 4.5 && std::abs(y) < 4.5; }, 26);
   SiteSelectionConfig config = planes();
   const SiteSelection warned = SiteSelector(config, k).select(depth, camera_at(0, 0, 30));
   EXPECT_EQ(warned.safe.at<std::uint8_t>(176, 176), 0);
@@ -282,7 +281,7 @@ TEST(Score, EveryTermPullsItsWay) {
   const double base = score(site, config, 2, 0.17);
   EXPECT_GT(base, 0);
   EXPECT_LT(base, 1);
-  const auto changed = [&](double LandingSite::*field, double value) {
+  const auto changed = [&](double LandingSite::* field, double value) {
     LandingSite other = site;
     other.*field = value;
     return score(other, config, 2, 0.17);

@@ -77,8 +77,7 @@ TEST(SiteSelector, RadiusFollowsFromDepthFocalLengthAndPixels) {
   const double z_m = 20;
   cv::Mat depth = level_ground(k, z_m);
   // A disc of 4 m around (1, -0.5) m; beyond it the ground lies 5 m deeper.
-  scenes::change(
-      depth, k, z_m, [](double x, double y) { return std::hypot(x - 1.0, y + 0.5) > 4.0; }, 25.0F);
+  scenes::change(depth, k, z_m, [](double x, double y) { return std::hypot(x - 1.0, y + 0.5) > 4.0; }, 25.0F);
   // The surroundings would hold the larger circle in metres; they are unsafe here.
   cv::Mat rough = depth.clone();
   for (int v = 0; v < 353; ++v) {

@@ -78,8 +78,7 @@ TEST_F(SiteCheckTest, WhatIsNotInViewIsUnseen) {
 /// Near the ground a LiDAR's circle is smaller than the site.
 TEST_F(SiteCheckTest, PartOfTheCircleIsEnoughOnlyWhereTheRuleSaysSo) {
   cv::Mat depth = scenes::level_ground(camera_, kHeight_m);
-  scenes::change(
-      depth, camera_, kHeight_m, [](double x, double y) { return std::hypot(x, y) > 1.6; }, 0.0F);
+  scenes::change(depth, camera_, kHeight_m, [](double x, double y) { return std::hypot(x, y) > 1.6; }, 0.0F);
   SiteCheckRule rule;
   rule.radius_m = 1.5;
   EXPECT_NE(check(depth, {0, 0, 0}, rule).verdict, SiteVerdict::kSafe);

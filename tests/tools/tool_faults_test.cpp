@@ -99,7 +99,9 @@ TEST_F(LogFaults, TextInPlaceOfABag) {
 }
 
 TEST_F(LogFaults, BagWithoutMessages) {
-  { rosbag::Bag bag((folder_ / "hollow.bag").string(), rosbag::bagmode::Write); }
+  {
+    rosbag::Bag bag((folder_ / "hollow.bag").string(), rosbag::bagmode::Write);
+  }
   expect_log_refused(folder_ / "hollow.bag", {"hollow.bag"});
 }
 

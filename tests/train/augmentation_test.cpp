@@ -20,14 +20,14 @@ using test::ground_scene;
 using test::GroundSceneOptions;
 using test::photometric;
 
-constexpr torch::Tensor Batch::*kFields[] = {&Batch::left,          &Batch::right,
-                                             &Batch::previous,      &Batch::next,
-                                             &Batch::sparse_m,      &Batch::offset_s,
-                                             &Batch::has_right,     &Batch::has_previous,
-                                             &Batch::has_next,      &Batch::T_previous_camera,
-                                             &Batch::T_next_camera, &Batch::intrinsics_px,
-                                             &Batch::baseline_m,    &Batch::height_m,
-                                             &Batch::down_camera};
+constexpr torch::Tensor Batch::* kFields[] = {&Batch::left,          &Batch::right,
+                                              &Batch::previous,      &Batch::next,
+                                              &Batch::sparse_m,      &Batch::offset_s,
+                                              &Batch::has_right,     &Batch::has_previous,
+                                              &Batch::has_next,      &Batch::T_previous_camera,
+                                              &Batch::T_next_camera, &Batch::intrinsics_px,
+                                              &Batch::baseline_m,    &Batch::height_m,
+                                              &Batch::down_camera};
 
 bool equal(const Batch& a, const Batch& b) {
   for (const auto field : kFields) {
