@@ -4,12 +4,14 @@
 #include <exception>
 #include <memory>
 
+#include <alight/cli/command_line.hpp>
 #include <alight/dataset/flight_log.hpp>
 #include <alight/infer/depth_engine.hpp>
 #include <alight/infer/network_predictor.hpp>
 #include <alight/infer/replay.hpp>
 
 int main(int argc, char** argv) try {
+  alight::restart_with_short_spin(argv);  // LibTorch's threads leave the processor to others while they wait
   if (argc < 3) return std::fprintf(stderr, "usage: depth_of_log flight.bag rig.yaml [network.pt]\n"), 2;
   const alight::Rig rig = alight::load_rig(argv[2]);
   const alight::DepthEngineConfig config;
