@@ -107,7 +107,8 @@ TEST(DamagedBags, BecomeErrorsOrSayWhatTheyLost) {
     }
     const fs::path output = folder.path() / ("data_" + std::to_string(begin));
     const BuildResult result = build_dataset(config, small_rig(), logs, output);
-    ASSERT_EQ(result.info.flights.at(0).name, "whole");
+    ASSERT_FALSE(result.info.flights.empty()) << result.failed.front();
+    ASSERT_EQ(result.info.flights[0].name, "whole");
     ASSERT_EQ(result.info.flights.size() + result.failed.size(), logs.size());
     const int all = result.info.flights[0].samples;
     for (std::size_t i = 1; i < result.info.flights.size(); ++i) {
