@@ -22,6 +22,12 @@ TEST(TrainConfig, EveryShippedFileLoads) {
   EXPECT_GE(files, 2);
 }
 
+TEST(TrainConfig, WeightsToStartFromAreAKey) {
+  const auto c = parse_config<TrainConfig>("train: {image_encoder_weights: resnet18.pt}", "test.yaml");
+  EXPECT_EQ(c.train.image_encoder_weights, "resnet18.pt");
+  EXPECT_EQ(parse_config<TrainConfig>("", "test.yaml").train.image_encoder_weights, std::nullopt);
+}
+
 TEST(TrainConfig, PaperFileIsThePapersConfiguration) {
   const auto c = load_config<TrainConfig>(fs::path(ALIGHT_SOURCE_DIR) / "configs" / "train" / "paper.yaml");
   EXPECT_EQ(c.loss.depth_weight, 1);
