@@ -62,6 +62,9 @@ class C10dCollectives : public Collectives {
 
 c10::intrusive_ptr<c10d::Store> meet(const ProcessPlace& place, std::chrono::seconds timeout) {
   c10d::TCPStoreOptions options;
+#if TORCH_VERSION_MAJOR > 2 || (TORCH_VERSION_MAJOR == 2 && TORCH_VERSION_MINOR >= 4)
+  options.useLibUV = false;  // the default since 2.4, which Debian's build does not have
+#endif
   options.port = static_cast<std::uint16_t>(place.master_port);
   options.isServer = place.rank == 0 && !place.served;
   if (!place.served) options.numWorkers = static_cast<std::size_t>(place.size);
