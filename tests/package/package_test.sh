@@ -55,7 +55,7 @@ refused 1 /my_lidar "$bin/alight-infer" --lidar-only --log logs/quick.bag --outp
 
 echo "== examples on the installed package"
 package=$(dirname "$(find "$prefix" -name alightConfig.cmake)")
-grep -rnE '[";>](/usr|/opt)/|'"$source|$build" "$package" >"$work/log" && fail "a path of this machine in the package:"
+grep -rnE '[";> (]('"/usr|/opt|$source|$build)/" "$package" >"$work/log" && fail "a path of this machine in the package:"
 [ "$(ls "$prefix/include")" = alight ]
 quietly cmake -S "$prefix/share/doc/libalight-dev/examples" -B "$work/examples" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix"
