@@ -28,7 +28,7 @@ bare_system() {
 }
 
 bare_run() {
-  unshare --mount --pid --fork bash -euc '
+  unshare --mount --pid --fork --kill-child bash -euc '
     root=$1 shared=$2 ccache=$3 output=$4 command=$5
     mount -t proc proc "$root/proc"
     mount -t sysfs -o ro sys "$root/sys"
