@@ -1,4 +1,4 @@
-// What building a data set costs beside the codecs of its images: run by scripts/bench_dataset.sh. Prints one JSON line.
+// What building a data set costs beside the codecs of its images: run by scripts/bench/dataset.sh. Prints one JSON line.
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -10,15 +10,16 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/command_line.hpp"
-#include "configs/errors.hpp"
-#include "dataset/bag_messages.hpp"
-#include "dataset/dataset_config.hpp"
-#include "dataset/flight_log.hpp"
-#include "dataset/messages/decoders.hpp"
-#include "dataset/sample_store.hpp"
-#include "dataset/sample_writer.hpp"
+#include "dataset/build/dataset_config.hpp"
+#include "dataset/build/sample_writer.hpp"
+#include "dataset/store/sample_store.hpp"
+#include "foundation/command_line.hpp"
+#include "foundation/errors.hpp"
 #include "geometry/frames.hpp"
+#include "geometry/rig/find_rig_file.hpp"
+#include "sensors/bag/bag_messages.hpp"
+#include "sensors/messages/decoders.hpp"
+#include "sensors/stream/flight_log.hpp"
 
 namespace {
 

@@ -16,9 +16,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "infer/benchmark.hpp"
-#include "infer/landing_pipeline.hpp"
+#include "infer/depth/landing_pipeline.hpp"
 #include "infer/onboard/steady_time.hpp"
+#include "infer/replay/stage_benchmark.hpp"
 #include "infer/web/ground_station.hpp"
 #include "infer/web/http_server.hpp"
 

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "geometry/frames.hpp"
-#include "infer/height_registration.hpp"
+#include "infer/depth/height_registration.hpp"
 
 namespace alight {
 namespace {

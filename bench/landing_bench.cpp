@@ -4,7 +4,7 @@
 
 #include "bench/scene.hpp"
 #include "geometry/reprojection.hpp"
-#include "infer/landing/fused_selection.hpp"
+#include "infer/landing/memory/fused_selection.hpp"
 #include "infer/landing/site_selection.hpp"
 
 namespace alight {

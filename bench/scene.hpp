@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "geometry/stereo_rectification.hpp"
+#include "geometry/rig/stereo_rectification.hpp"
 
 namespace alight::bench {
 

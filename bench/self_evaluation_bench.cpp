@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/scene.hpp"
-#include "infer/interpolation.hpp"
-#include "infer/self_evaluation.hpp"
+#include "infer/depth/interpolation.hpp"
+#include "infer/depth/self_evaluation.hpp"
 
 namespace alight {
 namespace {

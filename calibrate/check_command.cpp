@@ -3,10 +3,10 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "calibrate/commands.hpp"
-#include "calibrate/rig_check.hpp"
-#include "cli/output_folder.hpp"
-#include "cli/shipped_files.hpp"
+#include "calibrate/calibrate_commands.hpp"
+#include "calibrate/check/rig_check.hpp"
+#include "foundation/output_folder.hpp"
+#include "foundation/shipped_files.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;

@@ -1,13 +1,13 @@
 #include <cstdio>
 #include <optional>
 
-#include "calibrate/commands.hpp"
-#include "calibrate/lidar_calibration.hpp"
-#include "calibrate/lidar_report.hpp"
-#include "calibrate/new_file.hpp"
-#include "cli/output_folder.hpp"
-#include "cli/progress_bar.hpp"
-#include "cli/shipped_files.hpp"
+#include "calibrate/calibrate_commands.hpp"
+#include "calibrate/lidar/lidar_calibration.hpp"
+#include "calibrate/lidar/lidar_report.hpp"
+#include "foundation/new_file.hpp"
+#include "foundation/output_folder.hpp"
+#include "foundation/progress_bar.hpp"
+#include "foundation/shipped_files.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;

@@ -5,12 +5,12 @@
 #include <opencv2/imgcodecs.hpp>
 #include <spdlog/spdlog.h>
 
-#include "calibrate/commands.hpp"
-#include "calibrate/new_file.hpp"
-#include "calibrate/stereo_calibration.hpp"
-#include "cli/output_folder.hpp"
-#include "dataset/flight_log.hpp"
-#include "dataset/grey_image.hpp"
+#include "calibrate/calibrate_commands.hpp"
+#include "calibrate/clocks/grey_image.hpp"
+#include "calibrate/stereo/stereo_calibration.hpp"
+#include "foundation/new_file.hpp"
+#include "foundation/output_folder.hpp"
+#include "sensors/stream/flight_log.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;

@@ -15,11 +15,11 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include "cli/child_exit.hpp"
-#include "cli/output_folder.hpp"
 #include "closed_loop/landing_pictures.hpp"
-#include "configs/config_reader.hpp"
-#include "configs/errors.hpp"
+#include "foundation/child_exit.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/output_folder.hpp"
 #include "sim/counter_random.hpp"
 
 extern char** environ;

@@ -2,15 +2,15 @@
 #include <filesystem>
 #include <optional>
 
-#include "cli/command_line.hpp"
-#include "cli/output_folder.hpp"
-#include "cli/progress_bar.hpp"
-#include "cli/shipped_files.hpp"
 #include "closed_loop/campaign.hpp"
 #include "closed_loop/campaign_report.hpp"
-#include "closed_loop/commands.hpp"
-#include "configs/errors.hpp"
-#include "geometry/rig.hpp"
+#include "closed_loop/sim_commands.hpp"
+#include "foundation/command_line.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/output_folder.hpp"
+#include "foundation/progress_bar.hpp"
+#include "foundation/shipped_files.hpp"
+#include "geometry/rig/rig.hpp"
 
 namespace alight::closed_loop {
 namespace {

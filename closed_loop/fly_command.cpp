@@ -7,11 +7,11 @@
 
 #include <spdlog/spdlog.h>
 
-#include "cli/command_line.hpp"
-#include "closed_loop/commands.hpp"
-#include "sim/board_recorder.hpp"
-#include "sim/flight_recorder.hpp"
-#include "sim/flight_score.hpp"
+#include "closed_loop/sim_commands.hpp"
+#include "foundation/command_line.hpp"
+#include "sim/record/board_recorder.hpp"
+#include "sim/record/simulated_log.hpp"
+#include "sim/truth/flight_score.hpp"
 
 namespace {
 

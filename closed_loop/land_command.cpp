@@ -5,12 +5,12 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "cli/command_line.hpp"
-#include "cli/output_folder.hpp"
-#include "closed_loop/commands.hpp"
 #include "closed_loop/landing_flight.hpp"
 #include "closed_loop/landing_pictures.hpp"
-#include "configs/errors.hpp"
+#include "closed_loop/sim_commands.hpp"
+#include "foundation/command_line.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/output_folder.hpp"
 #include "infer/mission/mission_table.hpp"
 
 namespace alight::closed_loop {

@@ -1,6 +1,6 @@
 #include "closed_loop/land_config.hpp"
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 
 namespace alight::closed_loop {
 

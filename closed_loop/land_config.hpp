@@ -3,15 +3,15 @@
 #include <optional>
 #include <string>
 
-#include "configs/binder_fwd.hpp"
-#include "infer/landing_pipeline.hpp"
+#include "foundation/binder_fwd.hpp"
+#include "infer/depth/landing_pipeline.hpp"
 #include "infer/mission/mission_config.hpp"
-#include "infer/network_config.hpp"
-#include "sim/multirotor.hpp"
-#include "sim/renderer.hpp"
-#include "sim/sensor_config.hpp"
-#include "sim/surface_truth.hpp"
-#include "sim/world.hpp"
+#include "infer/replay/network_config.hpp"
+#include "sim/render/renderer.hpp"
+#include "sim/sensors/sensor_config.hpp"
+#include "sim/truth/surface_truth.hpp"
+#include "sim/vehicle/multirotor.hpp"
+#include "sim/world/world.hpp"
 
 namespace alight::closed_loop {
 

@@ -6,12 +6,12 @@
 #include <deque>
 #include <map>
 
-#include "cli/shipped_files.hpp"
 #include "closed_loop/message_feed.hpp"
 #include "closed_loop/vehicle_contact.hpp"
+#include "foundation/shipped_files.hpp"
 #include "geometry/frames.hpp"
 #include "infer/mission/landing_mission.hpp"
-#include "sim/simulated_flight.hpp"
+#include "sim/record/simulated_flight.hpp"
 
 namespace alight::closed_loop {
 namespace {

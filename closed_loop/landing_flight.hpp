@@ -6,9 +6,9 @@
 
 #include "closed_loop/land_config.hpp"
 #include "closed_loop/landing_verdict.hpp"
-#include "infer/depth_predictor.hpp"
-#include "sim/bag_writer.hpp"
-#include "sim/fault_injector.hpp"
+#include "infer/depth/depth_predictor.hpp"
+#include "sim/record/bag_writer.hpp"
+#include "sim/record/fault_injector.hpp"
 
 namespace alight::closed_loop {
 

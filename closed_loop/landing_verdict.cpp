@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "geometry/frames.hpp"
-#include "sim/material.hpp"
+#include "sim/objects/material.hpp"
 
 namespace alight::closed_loop {
 namespace {

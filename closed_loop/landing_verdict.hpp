@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "closed_loop/land_config.hpp"
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "infer/mission/mission_machine.hpp"
 
 namespace alight::closed_loop {

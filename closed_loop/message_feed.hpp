@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "dataset/message_assembler.hpp"
-#include "sim/message_maker.hpp"
+#include "sensors/stream/message_assembler.hpp"
+#include "sim/record/message_maker.hpp"
 
 namespace alight::closed_loop {
 

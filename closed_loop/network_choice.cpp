@@ -1,8 +1,8 @@
-#include "cli/shipped_files.hpp"
-#include "closed_loop/commands.hpp"
-#include "configs/errors.hpp"
+#include "closed_loop/sim_commands.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/shipped_files.hpp"
 #ifdef ALIGHT_SIM_WITH_NETWORK
-#include "infer/chosen_predictor.hpp"
+#include "infer/network/chosen_predictor.hpp"
 #endif
 
 namespace alight::closed_loop {

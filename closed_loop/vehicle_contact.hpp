@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "sim/renderer.hpp"
-#include "sim/surface_truth.hpp"
+#include "sim/render/renderer.hpp"
+#include "sim/truth/surface_truth.hpp"
 
 namespace alight::closed_loop {
 

@@ -2,11 +2,11 @@
 # engine is made of, as a CMake package:
 #   find_package(alight REQUIRED)
 #   target_link_libraries(app alight::infer)     # or alight::landing, which is free of torch
-# and `#include <alight/infer/depth_engine.hpp>`.
+# and `#include <alight/infer/depth/depth_engine.hpp>`.
 include(CMakePackageConfigHelpers)
 
-set(ALIGHT_PACKAGE_TARGETS alight_configs alight_cli alight_geometry alight_alignment alight_dataset alight_landing
-                           alight_health alight_engine alight_mission alight_onboard alight_results alight_web
+set(ALIGHT_PACKAGE_TARGETS alight_foundation alight_pictures alight_geometry alight_poses alight_sensors
+                           alight_dataset alight_landing alight_health alight_engine alight_mission alight_onboard alight_results alight_web
                            alight_autopilot alight_replay alight_recorder)
 set(ALIGHT_TOOLS alight-dataset)
 if(ALIGHT_WITH_GROUND)
@@ -23,7 +23,7 @@ endif()
 set(data ${CMAKE_INSTALL_DATADIR}/alight)
 install(TARGETS ${ALIGHT_TOOLS} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT alight)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${data} COMPONENT alight FILES_MATCHING PATTERN "*.yaml")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/shipped DESTINATION ${data}/models COMPONENT alight)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/weights DESTINATION ${data}/models COMPONENT alight)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT alight)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT alight)
 

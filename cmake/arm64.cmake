@@ -1,5 +1,5 @@
 # Cross compilation for a 64-bit ARM computer on any other: clang, and a folder that holds Debian's arm64 packages
-# (scripts/build_arm64.sh makes it). Headers, libraries and CMake packages come from that folder alone, programs that run
+# (scripts/ci/build_arm64.sh makes it). Headers, libraries and CMake packages come from that folder alone, programs that run
 # while building from this machine, and ctest runs the tests under qemu.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)

@@ -2,12 +2,12 @@
 
 #include <cstdio>
 
-#include "cli/shipped_files.hpp"
-#include "cli/text_format.hpp"
-#include "configs/errors.hpp"
-#include "dataset/align_picture.hpp"
-#include "dataset/picture_file.hpp"
-#include "dataset/turn_search.hpp"
+#include "calibrate/clocks/align_picture.hpp"
+#include "calibrate/clocks/turn_search.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/shipped_files.hpp"
+#include "foundation/text_format.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace alight {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "cli/command_line.hpp"
-#include "dataset/clock_alignment.hpp"
+#include "calibrate/clocks/clock_alignment.hpp"
+#include "foundation/command_line.hpp"
 
 namespace alight {
 

@@ -6,9 +6,9 @@
 #include <ctime>
 #include <string>
 
-#include "cli/command_line.hpp"
-#include "dataset/bag_inspection.hpp"
-#include "dataset/rig_suggestion.hpp"
+#include "dataset/inspect/bag_inspection.hpp"
+#include "dataset/inspect/rig_suggestion.hpp"
+#include "foundation/command_line.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 

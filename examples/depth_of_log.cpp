@@ -4,11 +4,11 @@
 #include <exception>
 #include <memory>
 
-#include <alight/cli/command_line.hpp>
-#include <alight/dataset/flight_log.hpp>
-#include <alight/infer/depth_engine.hpp>
-#include <alight/infer/network_predictor.hpp>
-#include <alight/infer/replay.hpp>
+#include <alight/foundation/command_line.hpp>
+#include <alight/infer/depth/depth_engine.hpp>
+#include <alight/infer/network/network_predictor.hpp>
+#include <alight/infer/replay/replay.hpp>
+#include <alight/sensors/stream/flight_log.hpp>
 
 int main(int argc, char** argv) try {
   alight::restart_with_short_spin(argv);  // LibTorch's threads leave the processor to others while they wait

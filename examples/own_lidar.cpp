@@ -2,8 +2,8 @@
 // and live topics of that type are read wherever the rig names their topic.
 #include <cstdio>
 
-#include <alight/dataset/messages/decoders.hpp>
-#include <alight/dataset/messages/lidar_returns.hpp>
+#include <alight/sensors/messages/decoders.hpp>
+#include <alight/sensors/messages/lidar_points.hpp>
 
 namespace {
 

@@ -1,6 +1,6 @@
 #include "losses/photometric_loss.hpp"
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "losses/masked_mean.hpp"
 #include "losses/ssim.hpp"
 #include "losses/view_synthesis.hpp"

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "losses/masked_mean.hpp"
 
 namespace alight {

@@ -2,7 +2,7 @@
 
 #include <torch/torch.h>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 
 namespace alight {
 

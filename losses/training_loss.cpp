@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "losses/ratio_loss.hpp"
 
 namespace alight {

@@ -4,7 +4,7 @@
 
 #include <torch/torch.h>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "losses/depth_loss.hpp"
 #include "losses/photometric_loss.hpp"
 #include "losses/smoothness_loss.hpp"

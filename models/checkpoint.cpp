@@ -6,9 +6,9 @@
 
 #include <torch/serialize.h>
 
-#include "cli/output_folder.hpp"
-#include "configs/config_reader.hpp"
-#include "configs/errors.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/output_folder.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 
 #include <torch/torch.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "models/depth_completion_net.hpp"
 
 namespace alight {
@@ -67,7 +67,7 @@ CheckpointInfo load_training(const std::filesystem::path& path, DepthCompletionN
                              const TrainingState& training);
 
 /// Copies an image encoder's weights into a network before its training: from another checkpoint, or from what
-/// scripts/convert_resnet18.py makes of torchvision's ResNet-18. An encoder that saw fewer channels (no stereo) starts
+/// scripts/peers/convert_resnet18.py makes of torchvision's ResNet-18. An encoder that saw fewer channels (no stereo) starts
 /// with weights of 0 for those that the network sees besides.
 /// @throws DataError as load_network, and if the encoders differ: names the first tensor and both shapes
 void load_image_encoder(const std::filesystem::path& path, DepthCompletionNet net);

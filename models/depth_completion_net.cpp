@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "configs/config_reader.hpp"
-#include "models/sparse_fill.hpp"
-#include "models/stereo_cue.hpp"
+#include "foundation/config_reader.hpp"
+#include "models/inputs/sparse_fill.hpp"
+#include "models/inputs/stereo_cue.hpp"
 
 namespace alight {
 namespace {

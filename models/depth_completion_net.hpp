@@ -6,12 +6,12 @@
 
 #include <torch/torch.h>
 
-#include "configs/binder_fwd.hpp"
-#include "configs/errors.hpp"
+#include "foundation/binder_fwd.hpp"
+#include "foundation/errors.hpp"
 #include "geometry/depth_map.hpp"
-#include "models/convolution.hpp"
+#include "models/inputs/scene_view.hpp"
+#include "models/layers/convolution.hpp"
 #include "models/resnet_encoder.hpp"
-#include "models/scene_view.hpp"
 
 namespace alight {
 
@@ -20,7 +20,7 @@ enum class Fusion { kConcatenate, kSum };
 
 /// What the depth branch sees. `raw`: one channel, depth / depth_scale_m, 0 where missing (the paper).
 /// `masked`: that and a validity channel. `filled`: everything relative to the prior, so that the flight's height
-/// cancels: ln(depth / prior), validity, ln(fill / prior) of the holes' fill (models/sparse_fill.hpp), the fill's
+/// cancels: ln(depth / prior), validity, ln(fill / prior) of the holes' fill (models/inputs/sparse_fill.hpp), the fill's
 /// coarseness, and ln(prior / depth_scale_m).
 enum class DepthInput { kRaw, kMasked, kFilled };
 
@@ -44,7 +44,7 @@ struct DepthCompletionConfig {
   DepthInput depth_input = DepthInput::kFilled;
   Head head = Head::kGated;
   Prior prior = Prior::kConstant;
-  bool stereo = false;     ///< the image branch also sees what the right eye says (models/stereo_cue.hpp)
+  bool stereo = false;  ///< the image branch also sees what the right eye says (models/inputs/stereo_cue.hpp)
   int detail_width = 0;    ///< channels of a full-resolution layer on the inputs themselves; 0: none
   int fill_smoothing = 0;  ///< see fill_pyramid
   double depth_scale_m = 20.0;

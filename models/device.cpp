@@ -1,6 +1,6 @@
 #include "models/device.hpp"
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 

@@ -4,7 +4,7 @@
 
 #include <torch/torch.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 

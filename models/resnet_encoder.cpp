@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "models/convolution.hpp"
+#include "models/layers/convolution.hpp"
 
 namespace alight {
 namespace {

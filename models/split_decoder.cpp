@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "models/convolution.hpp"
-#include "models/join_maps.hpp"
+#include "models/layers/convolution.hpp"
+#include "models/layers/join_maps.hpp"
 
 namespace alight {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "cli/shipped_files.hpp"
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/shipped_files.hpp"
 
 namespace alight {
 namespace {

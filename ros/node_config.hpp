@@ -4,9 +4,9 @@
 
 #include <ros/node_handle.h>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "infer/onboard/mode_switch.hpp"
-#include "infer/replay.hpp"
+#include "infer/replay/replay.hpp"
 
 namespace alight {
 

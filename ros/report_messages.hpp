@@ -14,7 +14,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include "geometry/camera.hpp"
-#include "infer/landing_pipeline.hpp"
+#include "infer/depth/landing_pipeline.hpp"
 #include "infer/onboard/engine_runner.hpp"
 #include "ros/node_config.hpp"
 #include "ros/topic_reader.hpp"

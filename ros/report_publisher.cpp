@@ -2,7 +2,7 @@
 
 #include <std_msgs/String.h>
 
-#include "infer/result_writer.hpp"
+#include "infer/replay/result_writer.hpp"
 #include "ros/report_messages.hpp"
 
 namespace alight {

@@ -6,8 +6,8 @@
 
 #include <ros/console.h>
 
-#include "configs/errors.hpp"
-#include "dataset/bag_access.hpp"
+#include "foundation/errors.hpp"
+#include "sensors/bag/bag_access.hpp"
 
 namespace alight {
 namespace {

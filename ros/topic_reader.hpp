@@ -10,9 +10,9 @@
 #include <ros/node_handle.h>
 #include <topic_tools/shape_shifter.h>
 
-#include "dataset/log_config.hpp"
-#include "dataset/message_assembler.hpp"
 #include "infer/onboard/steady_time.hpp"
+#include "sensors/stream/log_config.hpp"
+#include "sensors/stream/message_assembler.hpp"
 
 namespace alight {
 

@@ -26,7 +26,7 @@ while [[ "${1:-}" = --* ]]; do
 done
 command=${1:-scripts/demo.sh}
 
-source scripts/bare_system.sh
+source scripts/ci/bare_system.sh
 start=$SECONDS
 bare_system "$suite"
 git clone -q --no-hardlinks . "$root/alight"

@@ -10,7 +10,7 @@
 
 #include <sys/resource.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "models/network_summary.hpp"
 #include "train/trainer.hpp"
 

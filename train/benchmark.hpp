@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "train/sample_source.hpp"
+#include "train/data/sample_source.hpp"
 #include "train/train_config.hpp"
 
 namespace alight {

@@ -6,7 +6,7 @@
 #include <ATen/autocast_mode.h>
 #include <torch/version.h>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 
 namespace alight {
 namespace {

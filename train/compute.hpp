@@ -4,7 +4,7 @@
 
 #include <torch/torch.h>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "models/device.hpp"
 
 namespace alight {

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "models/altitude_plane.hpp"
 #include "models/depth_conversion.hpp"
+#include "models/inputs/altitude_plane.hpp"
 
 namespace alight {
 

@@ -2,8 +2,8 @@
 
 #include "losses/training_loss.hpp"
 #include "models/depth_completion_net.hpp"
-#include "train/batch.hpp"
-#include "train/density_sampling.hpp"
+#include "train/data/batch.hpp"
+#include "train/data/density_sampling.hpp"
 
 namespace alight {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 
 namespace alight {
 

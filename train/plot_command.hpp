@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/command_line.hpp"
-#include "train/run_plot.hpp"
+#include "foundation/command_line.hpp"
+#include "train/logging/run_plot.hpp"
 
 namespace alight {
 

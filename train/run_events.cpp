@@ -4,8 +4,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/depth_map.hpp"
+#include "train/data/sample_cache.hpp"
 #include "train/network_pass.hpp"
-#include "train/sample_cache.hpp"
 
 namespace alight {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "models/depth_completion_net.hpp"
-#include "train/event_file.hpp"
-#include "train/sample_source.hpp"
+#include "train/data/sample_source.hpp"
+#include "train/logging/event_file.hpp"
 
 namespace alight {
 

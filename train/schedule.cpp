@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 
 namespace alight {
 namespace {

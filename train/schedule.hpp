@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 
 namespace alight {
 

@@ -1,6 +1,6 @@
 #include "train/train_config.hpp"
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 
 namespace alight {
 
@@ -19,9 +19,10 @@ void bind(Binder& b, TrainingLoopConfig& c) {
           "keep a checkpoint of its own every so many epochs; 0: none", at_least(0));
   b.field("early_stop_epochs", c.early_stop_epochs,
           "end after so many epochs without a better validation; 0: never", at_least(0));
-  b.field("image_encoder_weights", c.image_encoder_weights,
-          "file that the image encoder starts from: of scripts/convert_resnet18.py, or a checkpoint; none: "
-          "drawn at random");
+  b.field(
+      "image_encoder_weights", c.image_encoder_weights,
+      "file that the image encoder starts from: of scripts/peers/convert_resnet18.py, or a checkpoint; none: "
+      "drawn at random");
 }
 
 void bind(Binder& b, TrainConfig& c) {

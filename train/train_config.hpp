@@ -4,16 +4,16 @@
 #include <optional>
 #include <string>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "losses/training_loss.hpp"
 #include "models/depth_completion_net.hpp"
-#include "train/augmentation.hpp"
 #include "train/compute.hpp"
-#include "train/density_sampling.hpp"
-#include "train/occlusion_filter.hpp"
+#include "train/data/augmentation.hpp"
+#include "train/data/density_sampling.hpp"
+#include "train/data/occlusion_filter.hpp"
+#include "train/data/split.hpp"
 #include "train/optimizer.hpp"
 #include "train/schedule.hpp"
-#include "train/split.hpp"
 #include "train/validation.hpp"
 
 namespace alight {
@@ -27,10 +27,11 @@ struct TrainingLoopConfig {
   std::int64_t seed = 1;
   int workers = 1;  ///< batches prepared in the background
   int cache_mb = 4000;
-  int save_every_steps = 0;                          ///< last.pt also inside an epoch; 0: at its end
-  int keep_every_epochs = 0;                         ///< epoch_0010.pt and so on; 0: none
-  int early_stop_epochs = 0;                         ///< without a better validation; 0: never
-  std::optional<std::string> image_encoder_weights;  ///< file of scripts/convert_resnet18.py, or a checkpoint
+  int save_every_steps = 0;   ///< last.pt also inside an epoch; 0: at its end
+  int keep_every_epochs = 0;  ///< epoch_0010.pt and so on; 0: none
+  int early_stop_epochs = 0;  ///< without a better validation; 0: never
+  std::optional<std::string>
+      image_encoder_weights;  ///< file of scripts/peers/convert_resnet18.py, or a checkpoint
 };
 void bind(Binder& b, TrainingLoopConfig& c);
 

@@ -5,12 +5,12 @@
 
 #include <spdlog/spdlog.h>
 
-#include "cli/progress_bar.hpp"
-#include "cli/shipped_files.hpp"
-#include "configs/config_reader.hpp"
-#include "configs/errors.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/progress_bar.hpp"
+#include "foundation/shipped_files.hpp"
+#include "train/distributed/sync_batch_norm.hpp"
 #include "train/network_pass.hpp"
-#include "train/sync_batch_norm.hpp"
 
 namespace alight {
 namespace {

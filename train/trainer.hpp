@@ -10,12 +10,12 @@
 
 #include "models/checkpoint.hpp"
 #include "models/depth_completion_net.hpp"
-#include "train/batch.hpp"
-#include "train/batch_loader.hpp"
-#include "train/process_group.hpp"
+#include "train/data/batch.hpp"
+#include "train/data/batch_loader.hpp"
+#include "train/data/sample_cache.hpp"
+#include "train/distributed/process_group.hpp"
+#include "train/logging/run_folder.hpp"
 #include "train/run_events.hpp"
-#include "train/run_folder.hpp"
-#include "train/sample_cache.hpp"
 #include "train/train_config.hpp"
 #include "train/validation.hpp"
 

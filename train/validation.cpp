@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "configs/config_reader.hpp"
-#include "models/altitude_plane.hpp"
+#include "foundation/config_reader.hpp"
 #include "models/depth_conversion.hpp"
-#include "models/sparse_fill.hpp"
-#include "train/density_sampling.hpp"
+#include "models/inputs/altitude_plane.hpp"
+#include "models/inputs/sparse_fill.hpp"
+#include "train/data/density_sampling.hpp"
 
 namespace alight {
 namespace {

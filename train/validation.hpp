@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "models/depth_completion_net.hpp"
+#include "train/data/sample_source.hpp"
 #include "train/error_meter.hpp"
-#include "train/sample_source.hpp"
 
 namespace alight {
 

@@ -1,6 +1,6 @@
 #include "infer/autopilot/autopilot_config.hpp"
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "infer/autopilot/transport.hpp"
 
 namespace alight {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 
 namespace alight {
 

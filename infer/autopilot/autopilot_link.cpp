@@ -7,7 +7,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "geometry/frames.hpp"
 #include "infer/autopilot/landing_target.hpp"
 #include "infer/autopilot/send_rule.hpp"

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "geometry/stereo_rectification.hpp"
+#include "geometry/rig/stereo_rectification.hpp"
 #include "infer/autopilot/autopilot_config.hpp"
 #include "infer/autopilot/mavlink_messages.hpp"
 #include "infer/autopilot/rate_limit.hpp"

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "infer/autopilot/mavlink_messages.hpp"
-#include "infer/landing/site_tracker.hpp"
+#include "infer/landing/memory/site_tracker.hpp"
 
 namespace alight {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "infer/landing_pipeline.hpp"
+#include "infer/depth/landing_pipeline.hpp"
 #include "infer/onboard/mode_switch.hpp"
 
 namespace alight {

@@ -9,7 +9,7 @@
 #include <poll.h>
 #include <termios.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "infer/onboard/steady_time.hpp"
 
 namespace alight {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "infer/autopilot/file_descriptor.hpp"
 #include "infer/autopilot/transport.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 

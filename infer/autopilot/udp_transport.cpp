@@ -7,7 +7,7 @@
 #include <netdb.h>
 #include <sys/socket.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 namespace {

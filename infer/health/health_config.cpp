@@ -1,6 +1,6 @@
 #include "infer/health/health_config.hpp"
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 
 namespace alight {
 

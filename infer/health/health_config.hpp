@@ -1,6 +1,6 @@
 #pragma once
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 
 namespace alight {
 

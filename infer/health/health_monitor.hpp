@@ -6,16 +6,16 @@
 #include <optional>
 #include <vector>
 
-#include "dataset/messages/message_types.hpp"
-#include "geometry/rig.hpp"
-#include "geometry/stereo_rectification.hpp"
-#include "infer/health/eye_alignment.hpp"
-#include "infer/health/eye_watch.hpp"
+#include "geometry/rig/rig.hpp"
+#include "geometry/rig/stereo_rectification.hpp"
+#include "infer/health/camera_alignment.hpp"
+#include "infer/health/camera_watch.hpp"
 #include "infer/health/health_config.hpp"
 #include "infer/health/health_report.hpp"
 #include "infer/health/lidar_watch.hpp"
 #include "infer/health/pose_watch.hpp"
 #include "infer/health/stream_watch.hpp"
+#include "sensors/messages/message_types.hpp"
 
 namespace alight {
 

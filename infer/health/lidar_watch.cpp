@@ -5,9 +5,9 @@
 #include <iterator>
 #include <utility>
 
-#include "cli/text_format.hpp"
-#include "dataset/alignment.hpp"
+#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
+#include "sensors/poses/alignment.hpp"
 
 namespace alight {
 namespace {

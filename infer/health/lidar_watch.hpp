@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include "dataset/messages/message_types.hpp"
 #include "geometry/trajectory.hpp"
 #include "infer/health/ground_memory.hpp"
 #include "infer/health/symptom.hpp"
+#include "sensors/messages/message_types.hpp"
 
 namespace alight {
 

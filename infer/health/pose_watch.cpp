@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/text_format.hpp"
+#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

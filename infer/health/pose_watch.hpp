@@ -10,10 +10,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "dataset/messages/message_types.hpp"
-#include "dataset/world_frame.hpp"
 #include "geometry/trajectory.hpp"
 #include "infer/health/symptom.hpp"
+#include "sensors/messages/message_types.hpp"
+#include "sensors/poses/world_frame.hpp"
 
 namespace alight {
 

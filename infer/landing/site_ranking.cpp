@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 
 namespace alight {
 

@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "infer/landing/landing_site.hpp"
 
 namespace alight {

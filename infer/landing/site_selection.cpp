@@ -10,11 +10,11 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
-#include "infer/landing/derivative_safety.hpp"
-#include "infer/landing/overhang.hpp"
+#include "infer/landing/derivatives/derivative_safety.hpp"
+#include "infer/landing/planes/overhang.hpp"
 
 namespace alight {
 namespace {

@@ -8,11 +8,11 @@
 #include <opencv2/core.hpp>
 
 #include "geometry/camera.hpp"
-#include "infer/landing/ground_safety.hpp"
+#include "infer/landing/derivatives/terrain.hpp"
 #include "infer/landing/landing_site.hpp"
-#include "infer/landing/plane_fit.hpp"
+#include "infer/landing/planes/ground_safety.hpp"
+#include "infer/landing/planes/plane_fit.hpp"
 #include "infer/landing/site_ranking.hpp"
-#include "infer/landing/terrain.hpp"
 
 namespace alight {
 

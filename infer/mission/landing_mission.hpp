@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "dataset/world_frame.hpp"
-#include "infer/landing_pipeline.hpp"
+#include "infer/depth/landing_pipeline.hpp"
 #include "infer/mission/mission_machine.hpp"
+#include "sensors/poses/world_frame.hpp"
 
 namespace alight {
 

@@ -1,6 +1,6 @@
 #include "infer/mission/mission_config.hpp"
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 
 namespace alight {
 

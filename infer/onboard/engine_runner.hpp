@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "infer/landing_pipeline.hpp"
+#include "infer/depth/landing_pipeline.hpp"
 #include "infer/onboard/frame_sink.hpp"
 #include "infer/onboard/message_queue.hpp"
 #include "infer/onboard/stage_queue.hpp"

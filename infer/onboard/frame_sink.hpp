@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dataset/messages/message_types.hpp"
-#include "infer/landing_pipeline.hpp"
+#include "infer/depth/landing_pipeline.hpp"
+#include "sensors/messages/message_types.hpp"
 
 namespace alight {
 

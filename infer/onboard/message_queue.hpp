@@ -9,9 +9,9 @@
 #include <optional>
 #include <string>
 
-#include "configs/binder_fwd.hpp"
-#include "dataset/messages/message_types.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "infer/onboard/steady_time.hpp"
+#include "sensors/messages/message_types.hpp"
 
 namespace alight {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "dataset/messages/message_types.hpp"
-#include "infer/landing_pipeline.hpp"
+#include "infer/depth/landing_pipeline.hpp"
 #include "infer/onboard/steady_time.hpp"
+#include "sensors/messages/message_types.hpp"
 
 namespace alight {
 

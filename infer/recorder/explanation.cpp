@@ -9,14 +9,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "cli/output_folder.hpp"
-#include "configs/config_reader.hpp"
-#include "configs/errors.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/output_folder.hpp"
 #include "geometry/depth_map.hpp"
 #include "geometry/frames.hpp"
-#include "infer/overlay.hpp"
 #include "infer/recorder/flight_recorder.hpp"
 #include "infer/recorder/segment_log.hpp"
+#include "infer/replay/overlay.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 

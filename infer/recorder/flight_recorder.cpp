@@ -10,9 +10,9 @@
 #include <opencv2/imgproc.hpp>
 #include <spdlog/spdlog.h>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "geometry/depth_map.hpp"
-#include "infer/result_writer.hpp"
+#include "infer/replay/result_writer.hpp"
 
 namespace alight {
 namespace {

@@ -13,7 +13,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "infer/onboard/frame_sink.hpp"
 #include "infer/recorder/segment_log.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "dataset/messages/message_types.hpp"
 #include "infer/web/sensor_meter.hpp"
 #include "infer/web/shown_frame.hpp"
+#include "sensors/messages/message_types.hpp"
 
 namespace alight {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "infer/web/access.hpp"
 #include "infer/web/flight_view.hpp"
 #include "infer/web/http_server.hpp"

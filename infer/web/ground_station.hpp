@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "configs/binder_fwd.hpp"
+#include "foundation/binder_fwd.hpp"
 #include "infer/onboard/engine_runner.hpp"
 #include "infer/onboard/frame_sink.hpp"
 #include "infer/onboard/mode_switch.hpp"

@@ -13,7 +13,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "infer/onboard/steady_time.hpp"
 
 namespace alight {

@@ -9,7 +9,7 @@
 
 #include <httplib.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 #include "infer/web/listen_address.hpp"
 
 #undef _res  // a macro of <resolv.h>, and a name in Eigen's templates

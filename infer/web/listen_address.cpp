@@ -5,7 +5,7 @@
 
 #include <arpa/inet.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 

@@ -5,8 +5,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "configs/errors.hpp"
-#include "infer/overlay.hpp"
+#include "foundation/errors.hpp"
+#include "infer/replay/overlay.hpp"
 #include "infer/web/state_json.hpp"
 
 namespace alight {

@@ -9,7 +9,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "infer/landing_pipeline.hpp"
+#include "infer/depth/landing_pipeline.hpp"
 #include "infer/onboard/steady_time.hpp"
 
 namespace alight {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/depth_map.hpp"
-#include "infer/overlay.hpp"
-#include "infer/result_writer.hpp"
+#include "infer/replay/overlay.hpp"
+#include "infer/replay/result_writer.hpp"
 
 namespace alight {
 namespace {

@@ -31,7 +31,7 @@ for flight in field town; do
 done
 "$bin"/alight-dataset build -q --config configs/dataset/default.yaml --log logs/field.bag --log logs/town.bag --output "$1"/data
 cd "$1"
-"$bin"/alight-evaluate -q --checkpoint models/shipped/default.pt --data data --output table.md
+"$bin"/alight-evaluate -q --checkpoint models/weights/default.pt --data data --output table.md
 RUN
 for suite in bookworm trixie; do
   scripts/bare_machine.sh --suite $suite "${ccache[@]}" --output "$out" "bash /output/run.sh $suite"
@@ -42,7 +42,7 @@ for flight in field town; do
   cmp "$out"/bookworm/own_logs/$flight.bag "$out"/trixie/own_logs/$flight.bag || status=1
 done
 for flight in field town field.lidar_only town.lidar_only; do
-  scripts/compare_results.py "$out"/bookworm/$flight "$out"/trixie/$flight --tolerance 1e-4 || status=1
+  scripts/bench/compare_results.py "$out"/bookworm/$flight "$out"/trixie/$flight --tolerance 1e-4 || status=1
 done
 diff -rq "$out"/bookworm/data "$out"/trixie/data --exclude build.yaml --exclude dataset.yaml ||
   { echo "compare_releases: the data sets differ"; status=1; }

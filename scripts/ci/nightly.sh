@@ -6,7 +6,7 @@
 # sanitizers  all tests that are free of torch, under AddressSanitizer and UBSan; threads under ThreadSanitizer
 # gcc         everything compiles without a warning by gcc, too
 # tidy        clang-tidy over all sources
-# fuzz        a minute of every fuzz target, and damaged bags (scripts/fuzz.sh)
+# fuzz        a minute of every fuzz target, and damaged bags (scripts/ci/fuzz.sh)
 # suites      as root with debootstrap: the tests and the demo on bare Debian 12 and 13, and both releases' results compared
 # packages    as root with debootstrap: Debian packages on a bare system
 # A part that fails does not keep the next from running. Exit code 1 if one failed. Logs: out/nightly/.
@@ -26,7 +26,7 @@ tidy() {
   cmake --preset dev >/dev/null && cmake --build --preset dev --target alight_torch_pch &&
     run-clang-tidy -quiet -p build/dev -j "$jobs" "$PWD/(?!build)"
 }
-fuzz() { scripts/fuzz.sh --jobs "$jobs"; }
+fuzz() { scripts/ci/fuzz.sh --jobs "$jobs"; }
 suites() {
   local suite status=0
   for suite in bookworm trixie; do
@@ -36,7 +36,7 @@ suites() {
   scripts/ci/compare_releases.sh || status=1
   return $status
 }
-packages() { scripts/build.sh release && scripts/package_check.sh; }
+packages() { scripts/build.sh release && scripts/ci/package_check.sh; }
 
 all=(slow sanitizers gcc tidy fuzz suites packages)
 [ "${1:-}" != --help ] || { sed -n '2,12s/^# \{0,1\}//p' "$0"; exit 0; }

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "geometry/frames.hpp"
-#include "geometry/rig.hpp"
-#include "sim/board_recorder.hpp"
+#include "geometry/rig/rig.hpp"
+#include "sim/record/board_recorder.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/tools/tool_runner.hpp"
 

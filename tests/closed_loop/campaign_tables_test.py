@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/campaign_tables.py counts right, says what is wrong, and docs/campaign.md holds the tables of docs/campaign.csv."""
+"""scripts/bench/campaign_tables.py counts right, says what is wrong, and docs/results/campaign.md holds the tables of docs/results/campaign.csv."""
 import json
 import pathlib
 import subprocess
@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def tables(*arguments):
-    return subprocess.run([sys.executable, "-B", str(ROOT / "scripts" / "campaign_tables.py"), *map(str, arguments)],
+    return subprocess.run([sys.executable, "-B", str(ROOT / "scripts" / "bench" / "campaign_tables.py"), *map(str, arguments)],
                           capture_output=True, text=True)
 
 
@@ -66,13 +66,13 @@ class CampaignTables(unittest.TestCase):
             page = tables(wrong)
             self.assertEqual(page.returncode, 1, wrong)
             self.assertIn(str(wrong), page.stderr)
-            self.assertIn("scripts/campaign.sh", page.stderr)
+            self.assertIn("scripts/bench/campaign.sh", page.stderr)
 
     def test_the_page_holds_the_tables(self):
-        printed = tables(ROOT / "docs" / "campaign.csv").stdout
-        page = (ROOT / "docs" / "campaign.md").read_text()
+        printed = tables(ROOT / "docs" / "results" / "campaign.csv").stdout
+        page = (ROOT / "docs" / "results" / "campaign.md").read_text()
         for block in printed.strip().split("\n\n"):
-            self.assertTrue(block in page, "docs/campaign.md is out of date; it lacks:\n" + block)
+            self.assertTrue(block in page, "docs/results/campaign.md is out of date; it lacks:\n" + block)
 
 
 unittest.main(verbosity=1)

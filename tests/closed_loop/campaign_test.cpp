@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "closed_loop/campaign_report.hpp"
-#include "configs/config_reader.hpp"
-#include "configs/errors.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/errors.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight::closed_loop {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "closed_loop/landing_pictures.hpp"
-#include "dataset/flight_log.hpp"
+#include "sensors/stream/flight_log.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight::closed_loop {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/frames.hpp"
-#include "sim/livox_scan.hpp"
+#include "sim/sensors/livox_scan.hpp"
 
 namespace alight::closed_loop {
 namespace {

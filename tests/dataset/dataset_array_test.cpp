@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
-#include "dataset/dataset_builder.hpp"
-#include "test_flight.hpp"
+#include "dataset/build/dataset_builder.hpp"
+#include "foundation/config_reader.hpp"
+#include "tests/sensors/test_flight.hpp"
 
 namespace alight::testing {
 namespace {
@@ -34,7 +34,7 @@ TEST(DatasetArray, ShardsOfAnArrayAndTheirMergeEqualOneBuild) {
     logs += " " + paths.back().string();
   }
   const std::string program = "ALIGHT_DATASET=" ALIGHT_BINARY_DIR "/bin/alight-dataset ";
-  const std::string script = ALIGHT_SOURCE_DIR "/scripts/dataset_array.sh ";
+  const std::string script = ALIGHT_SOURCE_DIR "/scripts/cluster/dataset_array.sh ";
   const std::string output = (dir / "all").string();
   const auto task = [&](int index, int count) {
     return run("SLURM_ARRAY_TASK_ID=" + std::to_string(index) +

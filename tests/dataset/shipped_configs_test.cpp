@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
-#include "dataset/dataset_builder.hpp"
+#include "dataset/build/dataset_builder.hpp"
+#include "foundation/config_reader.hpp"
+#include "geometry/rig/find_rig_file.hpp"
 
 namespace alight {
 namespace {

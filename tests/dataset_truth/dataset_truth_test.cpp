@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dataset/dataset_builder.hpp"
-#include "sim/flight_recorder.hpp"
+#include "dataset/build/dataset_builder.hpp"
+#include "sim/record/simulated_log.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight {

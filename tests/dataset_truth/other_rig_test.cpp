@@ -14,12 +14,13 @@
 
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
-#include "dataset/alignment.hpp"
-#include "dataset/dataset_builder.hpp"
-#include "dataset/flight_log.hpp"
-#include "dataset/messages/livox_custom_msg.hpp"
-#include "sim/flight_recorder.hpp"
+#include "dataset/build/dataset_builder.hpp"
+#include "foundation/config_reader.hpp"
+#include "geometry/rig/find_rig_file.hpp"
+#include "sensors/messages/livox_custom_msg.hpp"
+#include "sensors/poses/alignment.hpp"
+#include "sensors/stream/flight_log.hpp"
+#include "sim/record/simulated_log.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 /// One simulated flight as two vehicles would record it: the paper's, and one with other messages, topics, clocks and

@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "geometry/frames.hpp"
-#include "sim/fault_injector.hpp"
+#include "sim/record/fault_injector.hpp"
 #include "tests/faults/simulated_truth.hpp"
 #ifdef ALIGHT_FAULTS_WITH_NETWORK
-#include "infer/network_predictor.hpp"
-#include "infer/replay.hpp"
+#include "infer/network/network_predictor.hpp"
+#include "infer/replay/replay.hpp"
 #include "tests/support/scratch_folder.hpp"
 #endif
 
@@ -210,7 +210,7 @@ TEST_F(Faults, AHealthyFlightWithTheShippedNetwork) {
 TEST_P(Faults, ShippedNetwork) {
   const Fault& fault = fault_of(GetParam());
   if (!thorough() && !reaches_the_network(fault)) {
-    GTEST_SKIP() << "flown by scripts/faults.sh (ALIGHT_FAULTS_THOROUGH=1)";
+    GTEST_SKIP() << "flown by scripts/bench/faults.sh (ALIGHT_FAULTS_THOROUGH=1)";
   }
   const Messages flight =
       shortened(sim::inject(fault, truth_->messages(), fault_ns()), fault_ns(), network_image_step());

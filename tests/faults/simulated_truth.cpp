@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "dataset/flight_log.hpp"
 #include "geometry/frames.hpp"
-#include "sim/flight_recorder.hpp"
-#include "sim/flight_score.hpp"
+#include "sensors/stream/flight_log.hpp"
+#include "sim/record/simulated_log.hpp"
+#include "sim/truth/flight_score.hpp"
 
 namespace alight {
 namespace {

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "geometry/rig.hpp"
-#include "infer/landing_pipeline.hpp"
-#include "sim/fault_injector.hpp"
-#include "sim/simulated_flight.hpp"
+#include "geometry/rig/rig.hpp"
+#include "infer/depth/landing_pipeline.hpp"
+#include "sim/record/fault_injector.hpp"
+#include "sim/record/simulated_flight.hpp"
 
 namespace alight {
 

@@ -7,8 +7,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "configs/errors.hpp"
-#include "test_flight.hpp"
+#include "foundation/errors.hpp"
+#include "tests/sensors/test_flight.hpp"
 
 namespace {
 

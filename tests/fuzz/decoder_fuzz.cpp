@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "dataset/messages/decoders.hpp"
+#include "sensors/messages/decoders.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   bool known = false;

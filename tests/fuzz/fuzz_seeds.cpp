@@ -7,10 +7,10 @@
 #include <rosbag/view.h>
 #include <spdlog/spdlog.h>
 
-#include "configs/errors.hpp"
-#include "dataset/bag_messages.hpp"
-#include "dataset/messages/decoders.hpp"
-#include "test_flight.hpp"
+#include "foundation/errors.hpp"
+#include "sensors/bag/bag_messages.hpp"
+#include "sensors/messages/decoders.hpp"
+#include "tests/sensors/test_flight.hpp"
 
 namespace {
 

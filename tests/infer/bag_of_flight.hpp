@@ -9,9 +9,9 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/NavSatFix.h>
 
-#include "dataset/messages/livox_custom_msg.hpp"
-#include "dataset/messages/message_types.hpp"
-#include "geometry/rig.hpp"
+#include "geometry/rig/rig.hpp"
+#include "sensors/messages/livox_custom_msg.hpp"
+#include "sensors/messages/message_types.hpp"
 
 /// The fakes' messages as a ROS 1 bag on the default topics.
 namespace alight::fakes {

@@ -13,10 +13,10 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "dataset/messages/message_types.hpp"
 #include "geometry/frames.hpp"
-#include "geometry/rig.hpp"
-#include "infer/depth_predictor.hpp"
+#include "geometry/rig/rig.hpp"
+#include "infer/depth/depth_predictor.hpp"
+#include "sensors/messages/message_types.hpp"
 
 /// A small world with a known answer, as messages.
 namespace alight::fakes {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
-#include "infer/replay.hpp"
+#include "foundation/config_reader.hpp"
+#include "infer/replay/replay.hpp"
 
 namespace alight {
 namespace {

@@ -16,7 +16,7 @@ except ImportError as missing:
     print(f"skipped: {missing}; scripts/setup.sh --full installs python3-torch")
     sys.exit(77)
 
-CONVERTER = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "convert_resnet18.py"
+CONVERTER = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "peers" / "convert_resnet18.py"
 MEAN = torch.tensor([0.485, 0.456, 0.406]).view(1, 3, 1, 1)
 DEVIATION = torch.tensor([0.229, 0.224, 0.225]).view(1, 3, 1, 1)
 

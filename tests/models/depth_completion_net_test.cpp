@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
-#include "configs/errors.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/errors.hpp"
 #include "tests/models/tiny_net.hpp"
 
 namespace alight {

@@ -1,4 +1,4 @@
-"""scripts/model.py computes what the C++ network computes: model_py_test.py PEER_SAMPLES.
+"""scripts/peers/model.py computes what the C++ network computes: model_py_test.py PEER_SAMPLES.
 
 PEER_SAMPLES is the program that writes checkpoints, inputs and depths. Exit code 77: torch is missing.
 """
@@ -15,7 +15,7 @@ except ImportError as missing:
     print(f"skipped: {missing}; scripts/setup.sh --full installs python3-torch")
     sys.exit(77)
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts" / "peers"))
 from model import DepthCompletionNet, altitude_planes, load_network  # noqa: E402
 
 TOLERANCE = 1e-4  # relative

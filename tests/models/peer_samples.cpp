@@ -3,8 +3,8 @@
 #include <map>
 #include <string>
 
-#include "models/altitude_plane.hpp"
 #include "models/checkpoint.hpp"
+#include "models/inputs/altitude_plane.hpp"
 #include "tests/models/tiny_net.hpp"
 
 /// What the Python scripts are compared with. `peer_samples FOLDER` makes, for every variant of the network, NAME.pt (a

@@ -35,11 +35,11 @@ expect "comes with the program, $prefix/share/alight/configs/sim/quick.yaml" \
   "$bin/alight-sim" --config configs/sim/quick.yaml --output logs
 expect "comes with the program, $prefix/share/alight/configs/rigs/paper.yaml" \
   "$bin/alight-infer" --log logs/quick.bag --output default
-grep -qF "network: $prefix/share/alight/models/shipped/default.pt" "$work/log" || fail "not the shipped network:"
+grep -qF "network: $prefix/share/alight/models/weights/default.pt" "$work/log" || fail "not the shipped network:"
 quietly "$bin/alight-dataset" build --config configs/dataset/default.yaml --log logs/quick.bag --output data
-quietly "$bin/alight-export" --checkpoint models/shipped/default.pt --size 64 --output net.onnx
+quietly "$bin/alight-export" --checkpoint models/weights/default.pt --size 64 --output net.onnx
 quietly "$bin/alight-train" --config configs/train/paper.yaml --print-config
-quietly "$bin/alight-evaluate" --checkpoint models/shipped/default.pt --data data --every 20 --output table.md
+quietly "$bin/alight-evaluate" --checkpoint models/weights/default.pt --data data --every 20 --output table.md
 quietly "$bin/alight-sim" land --config configs/landing/default.yaml --print-config
 refused 2 "configs/rigs/nowhere.yaml: is not in $work/user, and not among the files that come with the program" \
   "$bin/alight-infer" --set rig=configs/rigs/nowhere.yaml --log logs/quick.bag --output none
@@ -61,7 +61,7 @@ quietly cmake -S "$prefix/share/doc/libalight-dev/examples" -B "$work/examples" 
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix"
 quietly cmake --build "$work/examples"
 expect " s of LiDAR " "$work/examples/depth_of_log" logs/quick.bag "$prefix/share/alight/configs/rigs/paper.yaml" \
-  "$prefix/share/alight/models/shipped/default.pt"
+  "$prefix/share/alight/models/weights/default.pt"
 expect "landing site of " "$work/examples/site_of_depth"
 expect "1 point, 1.00 m ahead" "$work/examples/own_lidar"
 # A library that is not there is named, with its package.

@@ -17,12 +17,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
-#include "infer/replay.hpp"
+#include "foundation/config_reader.hpp"
+#include "infer/replay/replay.hpp"
 #include "ros/report_messages.hpp"
-#include "ros_session.hpp"
+#include "tests/ros/ros_session.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/tool_runner.hpp"
+#include "tests/tools/tool_runner.hpp"
 
 namespace alight::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "ros_session.hpp"
+#include "tests/ros/ros_session.hpp"
 
 #include <cerrno>
 #include <csignal>

@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 
 #include "geometry/camera.hpp"
-#include "sim/renderer.hpp"
-#include "sim/shapes.hpp"
-#include "sim/world.hpp"
+#include "sim/objects/shapes.hpp"
+#include "sim/render/renderer.hpp"
+#include "sim/world/world.hpp"
 
 /// Small worlds with known answers.
 namespace alight::sim::test {

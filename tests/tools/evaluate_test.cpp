@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "models/checkpoint.hpp"
-#include "tool_runner.hpp"
+#include "tests/tools/tool_runner.hpp"
 
 /// alight-evaluate on a short simulated flight, as a user runs it.
 namespace alight::test {

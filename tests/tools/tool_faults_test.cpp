@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "models/checkpoint.hpp"
-#include "tool_runner.hpp"
+#include "tests/tools/tool_runner.hpp"
 
 /// Bad input, one test a fault: the message names file and cause, the exit code tells usage (2) from failure (1), and
 /// nothing half-written stays behind.

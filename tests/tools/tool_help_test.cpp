@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tool_runner.hpp"
+#include "tests/tools/tool_runner.hpp"
 
 namespace alight::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tool_runner.hpp"
+#include "tests/tools/tool_runner.hpp"
 
 #include <array>
 #include <cstdio>

@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tool_runner.hpp"
+#include "tests/tools/tool_runner.hpp"
 
 /// alight-train as a user runs it, kills it and goes on with it.
 namespace alight::test {

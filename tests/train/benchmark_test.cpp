@@ -9,7 +9,7 @@
 
 #include "models/network_summary.hpp"
 #include "tests/models/tiny_net.hpp"
-#include "tests/train/memory_source.hpp"
+#include "tests/train/data/memory_source.hpp"
 
 namespace alight {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 namespace {

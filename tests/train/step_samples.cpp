@@ -4,14 +4,14 @@
 #include <string>
 #include <utility>
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "models/checkpoint.hpp"
 #include "tests/models/tiny_net.hpp"
-#include "tests/train/ground_scene.hpp"
+#include "tests/train/data/ground_scene.hpp"
 #include "train/network_pass.hpp"
 #include "train/train_config.hpp"
 
-/// What the Python step of scripts/bench_train.py is compared with. `step_samples FOLDER` makes, for every choice of
+/// What the Python step of scripts/bench/train.py is compared with. `step_samples FOLDER` makes, for every choice of
 /// losses, NAME.pt (weights and configuration) and NAME.tensors.pt: a batch, what is fed of it, the prediction, the loss
 /// terms and the norm of the gradient.
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
-#include "configs/errors.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 namespace {

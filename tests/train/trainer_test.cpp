@@ -10,12 +10,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "configs/config_reader.hpp"
-#include "configs/errors.hpp"
+#include "foundation/config_reader.hpp"
+#include "foundation/errors.hpp"
 #include "models/checkpoint.hpp"
 #include "tests/models/tiny_net.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/train/memory_source.hpp"
+#include "tests/train/data/memory_source.hpp"
 
 namespace alight {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/models/tiny_net.hpp"
-#include "tests/train/memory_source.hpp"
+#include "tests/train/data/memory_source.hpp"
 
 namespace alight {
 namespace {

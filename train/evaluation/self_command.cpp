@@ -5,14 +5,14 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "cli/command_line.hpp"
-#include "cli/output_folder.hpp"
-#include "cli/progress_bar.hpp"
-#include "cli/shipped_files.hpp"
-#include "infer/replay.hpp"
-#include "train/evaluation/network_method.hpp"
-#include "train/evaluation/self_report.hpp"
-#include "train/evaluation/whole_dataset.hpp"
+#include "foundation/command_line.hpp"
+#include "foundation/output_folder.hpp"
+#include "foundation/progress_bar.hpp"
+#include "foundation/shipped_files.hpp"
+#include "infer/replay/replay.hpp"
+#include "train/evaluation/methods/network_method.hpp"
+#include "train/evaluation/scores/whole_dataset.hpp"
+#include "train/evaluation/self/self_report.hpp"
 #include "train/train_config.hpp"
 
 namespace alight {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "train/evaluation/evaluation_config.hpp"
+#include "train/evaluation/scores/evaluation_config.hpp"
 
 namespace alight {
 

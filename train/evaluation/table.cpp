@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/output_folder.hpp"
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/output_folder.hpp"
 
 namespace alight {
 namespace {

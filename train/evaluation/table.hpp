@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "train/evaluation/evaluator.hpp"
+#include "train/evaluation/scores/evaluator.hpp"
 
 namespace alight {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "cli/output_folder.hpp"
-#include "configs/errors.hpp"
+#include "foundation/errors.hpp"
+#include "foundation/output_folder.hpp"
 #include "train/export/onnx_export.hpp"
 #include "train/export/torchscript_export.hpp"
 

@@ -1,6 +1,6 @@
 #include "train/export/exported_part.hpp"
 
-#include "configs/config_reader.hpp"
+#include "foundation/config_reader.hpp"
 #include "models/fold_batch_norm.hpp"
 
 namespace alight {
@@ -10,7 +10,8 @@ std::string image_text(const DepthCompletionConfig& c) {
   const std::string text =
       "[1," + std::to_string(image_channels(c)) + ",H,W] float32: left image, RGB in 0..1";
   return c.stereo
-             ? text + "; then the stereo cue, three scales of estimate and weight (models/stereo_cue.hpp)"
+             ? text +
+                   "; then the stereo cue, three scales of estimate and weight (models/inputs/stereo_cue.hpp)"
              : text;
 }
 
@@ -22,7 +23,7 @@ std::string depth_text(const DepthCompletionConfig& c) {
   }
   return text +
          "ln(sparse depth / prior), 0 = missing; 1 where there is a point, else 0; fill of the first; the " +
-         "fill's coarseness 0..1 (models/sparse_fill.hpp); ln(prior / depth_scale_m)";
+         "fill's coarseness 0..1 (models/inputs/sparse_fill.hpp); ln(prior / depth_scale_m)";
 }
 
 }  // namespace

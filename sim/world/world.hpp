@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "foundation/binder_fwd.hpp"
+#include "sim/objects/mover.hpp"
+#include "sim/objects/terrain_mesh.hpp"
+#include "sim/objects/triangle_mesh.hpp"
+#include "sim/world/hardship.hpp"
+
+namespace alight::sim {
+
+/// Kinds of places.
+enum class Look { kVillage, kForest, kFarmland, kRocky, kUrban };
+
+enum class VisitorKind { kNone, kCar, kPerson };
+
+/// Something that comes to a place while a vehicle may be landing there.
+struct VisitorConfig {
+  VisitorKind kind = VisitorKind::kNone;
+  double from_x_m = 0;
+  double from_y_m = 0;
+  double to_x_m = 0;
+  double to_y_m = 0;
+  double begin_s = 0;  ///< sets out, from the start of the flight
+  double speed_mps = 5;
+};
+void bind(Binder& b, VisitorConfig& c);
+
+/// What to build. The same values give the same world, bit for bit.
+struct WorldConfig {
+  Look look = Look::kVillage;
+  int seed = 1;
+  double size_m = 160;                      ///< side of the square that is built in detail
+  std::optional<double> sun_elevation_deg;  ///< none: drawn from the seed
+  std::optional<double> sun_azimuth_deg;    ///< counter-clockwise from east; none: drawn from the seed
+  Hardships hard;                           ///< none by default
+  VisitorConfig visitor;
+};
+void bind(Binder& b, WorldConfig& c);
+/// The look's name in YAML.
+std::string to_string(Look look);
+/// Every look, in the order of the enumeration.
+std::vector<Look> all_looks();
+
+/// A place: relief, roads, fields, buildings, plants, water; as triangles with surfaces. Frame:
+/// East-North-Up, metres, origin in the middle at ground height. The detailed square is |x|, |y| <= size_m /
+/// 2; beyond it the ground runs on, coarse and bare, so that no camera sees the end of the world from the
+/// middle.
+class World {
+ public:
+  explicit World(const WorldConfig& config);
+
+  /// A world of given triangles: no relief, ground_height_m() is 0.
+  /// @param sun_direction unit vector from the ground to the sun
+  static World from_meshes(std::vector<TriangleMesh> meshes, std::vector<Surface> surfaces, double size_m,
+                           const Eigen::Vector3d& sun_direction = {0.36, 0.48, 0.8});
+
+  const std::vector<TriangleMesh>& meshes() const { return meshes_; }
+  const std::vector<Placement>& placements() const { return placements_; }
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
+  /// What moves, beside the placements, which stand still.
+  const std::vector<Mover>& movers() const { return movers_; }
+  /// Adds a mesh that stands nowhere yet. @returns its index
+  std::size_t add(TriangleMesh mesh);
+  void add(Mover mover) { movers_.push_back(std::move(mover)); }
+  /// Null in a world of given triangles.
+  const Terrain* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
+
+  /// Height of the bare ground (without roads' kerbs, plants, buildings), metres.
+  double ground_height_m(double x_m, double y_m) const;
+  /// Side of the detailed square.
+  double size_m() const { return size_m_; }
+  /// Unit vector from the ground to the sun.
+  const Eigen::Vector3d& sun_direction() const { return sun_direction_; }
+  /// Share of a clear day's light.
+  float daylight() const { return daylight_; }
+
+ private:
+  World() = default;
+
+  std::vector<TriangleMesh> meshes_;
+  std::vector<Placement> placements_;
+  std::vector<Surface> surfaces_;
+  std::vector<Mover> movers_;
+  std::optional<Terrain> terrain_;
+  double size_m_ = 0;
+  Eigen::Vector3d sun_direction_ = Eigen::Vector3d::UnitZ();
+  float daylight_ = 1;
+};
+
+}  // namespace alight::sim
