@@ -9,7 +9,7 @@
 #include "foundation/errors.hpp"
 #include "foundation/progress_bar.hpp"
 #include "geometry/frames.hpp"
-#include "sensors/poses/alignment.hpp"
+#include "sensors/poses/flight_trajectory.hpp"
 #include "sensors/stream/flight_log.hpp"
 
 namespace alight {

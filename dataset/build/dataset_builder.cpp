@@ -137,8 +137,7 @@ class DatasetBuild {
   void build_one(const fs::path& log, int workers, const std::function<void(double)>& progress) const {
     LogIdentity identity = identify_log(log);
     std::future<std::string> hash = std::async(std::launch::async, content_hash_of_file, log);
-    const FlightEntry entry =
-        build_flight(config_, rig_, log, folder_.partial(), workers, progress, options_.point_pose);
+    const FlightEntry entry = build_flight(config_, rig_, log, folder_.partial(), workers, progress);
     identity.hash = hash.get();
     write_flight_record(folder_.partial() / entry.name, {recipe_, identity, entry});
   }

@@ -19,7 +19,6 @@ using BuildProgress = std::function<void(std::int64_t, std::int64_t)>;
 struct BuildOptions {
   int at_once = 0;  ///< logs that are read at a time; 0: as many as there are cores
   BuildProgress progress;
-  PointPose point_pose = PointPose::kOwnTime;  ///< for tests that show what the alignment corrects
 };
 
 /// What came of a build.

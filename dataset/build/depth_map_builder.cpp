@@ -1,7 +1,7 @@
 #include "dataset/build/depth_map_builder.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <memory>
 #include <utility>
 
 #include "foundation/config_reader.hpp"
@@ -15,7 +15,6 @@ namespace {
 constexpr std::int64_t kMaxWaitNs = 2 * kNanosecondsPerSecond;
 /// A message describes a time this much before it arrives, at most.
 constexpr std::int64_t kMaxLatencyNs = kNanosecondsPerSecond;
-constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min() / 2;
 
 cv::Rect crop_of(const RectifiedRig& rig, const std::optional<int>& crop_px) {
   const cv::Size image = rig.intrinsics.size();
@@ -49,55 +48,40 @@ void bind(Binder& b, DepthMapConfig& c) {
           "offsets on disk are 16 bits of milliseconds: 30 s at most on either side");
 }
 
-DepthMapBuilder::DepthMapBuilder(const Rig& rig, const DepthMapConfig& config, PointPose point_pose)
+DepthMapBuilder::DepthMapBuilder(const Rig& rig, const DepthMapConfig& config)
     : config_(config),
-      point_pose_(point_pose),
       rectifier_(rig),
       crop_(crop_of(rectifier_.rig(), config.crop_px)),
       cropped_(crop(rectifier_.rig(), crop_)),
-      T_imu_lidar_(cropped_.T_camera_imu.inverse() * cropped_.T_camera_lidar),
       before_ns_(to_nanoseconds(config.window_before_s)),
       after_ns_(to_nanoseconds(config.window_after_s)),
-      trajectory_(config.max_pose_gap_s),
-      last_frame_ns_(kNever),
-      placed_until_ns_(kNever),
-      clock_ns_(kNever) {}
+      aligner_({config.max_pose_gap_s, to_seconds(kMaxWaitNs)},
+               cropped_.T_camera_imu.inverse() * cropped_.T_camera_lidar) {}
 
 void DepthMapBuilder::add(LogMessage message) {
   if (auto* frame = std::get_if<StereoFrame>(&message)) {
     add_frame(std::move(*frame));
   } else if (auto* packet = std::get_if<LidarPacket>(&message)) {
-    add_packet(std::move(*packet));
+    aligner_.add(std::move(*packet));
   } else if (const auto* attitude = std::get_if<AttitudeSample>(&message)) {
-    tick(attitude->t_ns);
-    if (!trajectory_.add(*attitude)) ++dropped_["attitudes not later than the one before"];
+    aligner_.add(*attitude);
   } else if (const auto* position = std::get_if<PositionSample>(&message)) {
-    tick(position->t_ns);
-    if (!trajectory_.add(*position)) ++dropped_["positions not later than the one before"];
+    aligner_.add(*position);
   } else {
-    heights_.add(std::get<HeightSample>(message));
+    aligner_.add(std::get<HeightSample>(message));
   }
 }
 
 void DepthMapBuilder::add_frame(StereoFrame frame) {
-  if (frame.t_ns <= last_frame_ns_) {
-    ++dropped_["images not later than the one before"];
-    return;
-  }
+  if (last_frame_ns_ && frame.t_ns <= *last_frame_ns_)
+    return aligner_.drop("images not later than the one before");
   last_frame_ns_ = frame.t_ns;
-  tick(frame.t_ns);
+  aligner_.saw(frame.t_ns);
   frames_.push_back(std::move(frame));
 }
 
-void DepthMapBuilder::add_packet(LidarPacket packet) {
-  std::int64_t last_ns = packet.t_ns;
-  for (const LidarReturn& point : packet.returns) last_ns = std::max(last_ns, point.t_ns);
-  tick(last_ns);
-  packets_.push_back({last_ns, std::move(packet)});
-}
-
 std::optional<BuiltSample> DepthMapBuilder::next() {
-  place_packets();
+  while (auto packet = aligner_.next()) window_.add(std::make_shared<WorldPacket>(std::move(*packet)));
   while (!frames_.empty() && frame_is_ready(frames_.front().t_ns)) {
     StereoFrame frame = std::move(frames_.front());
     frames_.pop_front();
@@ -107,54 +91,30 @@ std::optional<BuiltSample> DepthMapBuilder::next() {
   return std::nullopt;
 }
 
-void DepthMapBuilder::place_packets() {
-  const auto poses_end_ns = trajectory_.trajectory().end_ns().value_or(kNever);
-  while (!packets_.empty()) {
-    const WaitingPacket& front = packets_.front();
-    if (!finished_ && poses_end_ns < front.last_ns && clock_ns_ < front.last_ns + kMaxWaitNs) return;
-    placed_until_ns_ = std::max(placed_until_ns_, front.last_ns);
-    if (point_pose_ == PointPose::kOwnTime) {
-      AlignedPoints aligned = align_points(front.packet.returns, trajectory_.trajectory(), T_imu_lidar_);
-      if (aligned.without_pose > 0) dropped_["LiDAR points without a pose"] += aligned.without_pose;
-      window_.add(std::move(aligned.points));
-    } else {
-      std::vector<WorldPoint>
-          points;  // in the IMU frame: the pose at image time cancels out of the projection
-      for (const LidarReturn& point : front.packet.returns) {
-        points.push_back({point.t_ns, T_imu_lidar_ * point.p_lidar.cast<double>()});
-      }
-      window_.add(std::move(points));
-    }
-    packets_.pop_front();
-  }
-}
-
 bool DepthMapBuilder::frame_is_ready(std::int64_t t_ns) const {
-  if (finished_ || clock_ns_ >= t_ns + after_ns_ + kMaxWaitNs) return true;
-  const auto poses_end_ns = trajectory_.trajectory().end_ns().value_or(kNever);
-  return poses_end_ns >= t_ns && placed_until_ns_ >= t_ns + after_ns_;
+  const std::int64_t window_end_ns = t_ns + after_ns_;
+  const bool points_there = aligner_.finished() || aligner_.placed_until_ns() >= window_end_ns;
+  return (aligner_.settled(t_ns) && points_there) || aligner_.late(window_end_ns);
 }
 
 std::optional<BuiltSample> DepthMapBuilder::build(StereoFrame frame) {
-  const auto T_world_imu = trajectory_.trajectory().T_world_imu(frame.t_ns);
+  const auto T_world_imu = aligner_.T_world_imu(frame.t_ns);
   if (!T_world_imu) {
-    ++dropped_["images without a pose"];
+    aligner_.drop("images without a pose");
     return std::nullopt;
   }
   BuiltSample sample;
   sample.t_ns = frame.t_ns;
   sample.T_world_camera = *T_world_imu * cropped_.T_camera_imu.inverse();
-  const Eigen::Isometry3d T_camera_points =
-      point_pose_ == PointPose::kOwnTime ? sample.T_world_camera.inverse() : cropped_.T_camera_imu;
   sample.sparse = SparseDepth::empty(cropped_.intrinsics.size());
-  sample.points =
-      window_.project(frame.t_ns - before_ns_, frame.t_ns + after_ns_, T_camera_points, cropped_.intrinsics,
-                      frame.t_ns, {config_.min_depth_m, config_.max_depth_m}, sample.sparse);
+  sample.points = window_.project(frame.t_ns - before_ns_, frame.t_ns + after_ns_,
+                                  sample.T_world_camera.inverse(), cropped_.intrinsics, frame.t_ns,
+                                  {config_.min_depth_m, config_.max_depth_m}, sample.sparse);
   if (sample.sparse.count() < config_.min_pixels) {
-    ++dropped_["images with too few depth pixels"];
+    aligner_.drop("images with too few depth pixels");
     return std::nullopt;
   }
-  sample.height_m = heights_.at(frame.t_ns);
+  sample.height_m = aligner_.heights().at(frame.t_ns);
   if (frame.undecoded) {
     sample.frame = std::move(frame);
   } else {
@@ -170,12 +130,13 @@ void DepthMapBuilder::add_images(BuiltSample& sample, const StereoFrame& frame) 
 
 /// What no coming image or packet can ask for any more.
 void DepthMapBuilder::forget() {
-  if (clock_ns_ == kNever) return;
-  const std::int64_t oldest_image_ns = std::max(frames_.empty() ? last_frame_ns_ : frames_.front().t_ns,
-                                                clock_ns_ - after_ns_ - kMaxWaitNs - kMaxLatencyNs);
-  window_.forget_before(oldest_image_ns - before_ns_);
-  trajectory_.forget_before(clock_ns_ - after_ns_ - kMaxWaitNs - 2 * kMaxLatencyNs);
-  heights_.forget_before(clock_ns_ - after_ns_ - kMaxWaitNs - 2 * kMaxLatencyNs);
+  const auto now_ns = aligner_.now_ns();
+  if (!now_ns) return;
+  const std::int64_t oldest_waiting_ns = *now_ns - after_ns_ - kMaxWaitNs - kMaxLatencyNs;
+  const std::int64_t oldest_image_ns =
+      frames_.empty() ? last_frame_ns_.value_or(oldest_waiting_ns) : frames_.front().t_ns;
+  window_.forget_before(std::max(oldest_image_ns, oldest_waiting_ns) - before_ns_);
+  aligner_.forget_before(oldest_waiting_ns - kMaxLatencyNs);
 }
 
 }  // namespace alight

@@ -12,7 +12,8 @@
 #include "foundation/errors.hpp"
 #include "geometry/rig/stereo_rectification.hpp"
 #include "sensors/messages/message_types.hpp"
-#include "sensors/poses/alignment.hpp"
+#include "sensors/poses/packet_aligner.hpp"
+#include "sensors/poses/packet_window.hpp"
 
 namespace alight {
 
@@ -50,7 +51,7 @@ struct BuiltSample {
 class DepthMapBuilder {
  public:
   /// @throws ConfigError if the crop does not fit the rig's images
-  DepthMapBuilder(const Rig& rig, const DepthMapConfig& config, PointPose point_pose = PointPose::kOwnTime);
+  DepthMapBuilder(const Rig& rig, const DepthMapConfig& config);
 
   /// Of the rectified, cropped images.
   const RectifiedRig& rig() const { return cropped_; }
@@ -61,7 +62,7 @@ class DepthMapBuilder {
 
   void add(LogMessage message);
   /// No message follows: what still waits is built with what is there.
-  void finish() { finished_ = true; }
+  void finish() { aligner_.finish(); }
   /// The next sample in time order that is ready; empty if none is.
   std::optional<BuiltSample> next();
 
@@ -69,41 +70,25 @@ class DepthMapBuilder {
   void add_images(BuiltSample& sample, const StereoFrame& frame) const;
 
   /// What was left out so far: reason -> count.
-  const std::map<std::string, std::int64_t>& dropped() const { return dropped_; }
+  const std::map<std::string, std::int64_t>& dropped() const { return aligner_.dropped(); }
 
  private:
   void add_frame(StereoFrame frame);
-  void add_packet(LidarPacket packet);
-  void place_packets();
   bool frame_is_ready(std::int64_t t_ns) const;
   std::optional<BuiltSample> build(StereoFrame frame);
   void forget();
-  void tick(std::int64_t t_ns) { clock_ns_ = std::max(clock_ns_, t_ns); }
-
-  struct WaitingPacket {
-    std::int64_t last_ns;
-    LidarPacket packet;
-  };
 
   DepthMapConfig config_;
-  PointPose point_pose_;
   StereoRectifier rectifier_;
   cv::Rect crop_;
   RectifiedRig cropped_;
-  Eigen::Isometry3d T_imu_lidar_;
   std::int64_t before_ns_;
   std::int64_t after_ns_;
 
-  FlightTrajectory trajectory_;
-  HeightTrack heights_;
-  PointWindow window_;
-  std::deque<StereoFrame> frames_;
-  std::deque<WaitingPacket> packets_;
-  std::map<std::string, std::int64_t> dropped_;
-  std::int64_t last_frame_ns_;
-  std::int64_t placed_until_ns_;  // LiDAR points up to here are in the window
-  std::int64_t clock_ns_;         // the latest time of any message
-  bool finished_ = false;
+  PacketAligner aligner_;
+  PacketWindow window_;
+  std::deque<StereoFrame> frames_;  // waiting for the poses and points of their window
+  std::optional<std::int64_t> last_frame_ns_;
 };
 
 }  // namespace alight

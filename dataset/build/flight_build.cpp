@@ -64,14 +64,13 @@ std::string describe(const std::map<std::string, std::int64_t>& dropped) {
 /// One flight of a data set under construction.
 class FlightBuild {
  public:
-  FlightBuild(const DatasetConfig& config, const Rig& rig, const fs::path& log, const fs::path& dir,
-              PointPose point_pose)
+  FlightBuild(const DatasetConfig& config, const Rig& rig, const fs::path& log, const fs::path& dir)
       : config_(config),
         rig_(rig),
         dir_(dir),
         path_(log),
         log_(log, rig, config.log),
-        builder_(rig, config.depth_map, point_pose) {
+        builder_(rig, config.depth_map) {
     log_.keep_every_nth_image(config.depth_map.every_nth_image);
     log_.put_off_decoding();  // the workers do it
     dense_folder_ = usable_dense_folder(log, builder_);
@@ -192,9 +191,8 @@ fs::path dense_folder_of(const fs::path& log) {
 }
 
 FlightEntry build_flight(const DatasetConfig& config, const Rig& rig, const fs::path& log,
-                         const fs::path& dir, int workers, const std::function<void(double)>& progress,
-                         PointPose point_pose) {
-  return FlightBuild(config, rig, log, dir, point_pose).run(workers, progress);
+                         const fs::path& dir, int workers, const std::function<void(double)>& progress) {
+  return FlightBuild(config, rig, log, dir).run(workers, progress);
 }
 
 }  // namespace alight

@@ -20,7 +20,6 @@ std::filesystem::path dense_folder_of(const std::filesystem::path& log);
 /// @throws DataError (a log that cannot be read or gives no sample), ConfigError
 FlightEntry build_flight(const DatasetConfig& config, const Rig& rig, const std::filesystem::path& log,
                          const std::filesystem::path& dir, int workers,
-                         const std::function<void(double)>& progress,
-                         PointPose point_pose = PointPose::kOwnTime);
+                         const std::function<void(double)>& progress);
 
 }  // namespace alight

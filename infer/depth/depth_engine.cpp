@@ -51,10 +51,9 @@ DepthEngine::DepthEngine(const DepthEngineConfig& config, const Rig& rig,
       rectifier_(rig),
       crop_(fitting_crop(rectifier_.rig().intrinsics.size(), {config.width_px, config.height_px})),
       rig_(alight::crop(rectifier_.rig(), crop_)),
-      T_imu_lidar_(rig_.T_camera_imu.inverse() * rig_.T_camera_lidar),
       predictor_(std::move(predictor)),
-      poses_(config.max_pose_gap_s),
-      accumulator_(static_cast<std::size_t>(config.max_points)) {
+      aligner_({config.max_pose_gap_s, config.max_wait_s}, rig_.T_camera_imu.inverse() * rig_.T_camera_lidar),
+      window_(static_cast<std::size_t>(config.max_points)) {
   if (!rig.lidar0)
     throw ConfigError("the rig has no lidar0: the engine needs a LiDAR; add it to the rig file");
   if (!rig.cam0.T_camera_imu)
@@ -64,13 +63,25 @@ DepthEngine::DepthEngine(const DepthEngineConfig& config, const Rig& rig,
 }
 
 void DepthEngine::add(const LogMessage& message) {
-  std::visit([this](const auto& typed) { receive(typed); }, message);
+  const bool first = !aligner_.now_ns();
+  if (const auto* frame = std::get_if<StereoFrame>(&message)) {
+    receive(*frame);
+  } else if (const auto* packet = std::get_if<LidarPacket>(&message)) {
+    receive(*packet);
+  } else if (const auto* attitude = std::get_if<AttitudeSample>(&message)) {
+    aligner_.add(*attitude);
+  } else if (const auto* position = std::get_if<PositionSample>(&message)) {
+    aligner_.add(*position);
+  } else {
+    aligner_.add(std::get<HeightSample>(message));
+  }
+  if (first) lidar_ns_ = *aligner_.now_ns();
   work();
 }
 
 void DepthEngine::forget_lidar(const std::string& reason) {
-  packets_.clear();
-  accumulator_ = Accumulator(static_cast<std::size_t>(config_.max_points));
+  aligner_.forget_packets();
+  window_ = PacketWindow(static_cast<std::size_t>(config_.max_points));
   registration_.forget();
   for (Entry& entry : entries_) {
     if (!entry.task) continue;
@@ -79,13 +90,8 @@ void DepthEngine::forget_lidar(const std::string& reason) {
   }
 }
 
-void DepthEngine::saw(std::int64_t t_ns) {
-  if (!now_ns_) lidar_ns_ = t_ns;
-  now_ns_ = std::max(now_ns_.value_or(t_ns), t_ns);
-}
-
 void DepthEngine::receive(const StereoFrame& frame) {
-  saw(frame.t_ns);
+  aligner_.saw(frame.t_ns);
   Entry& entry = entries_.emplace_back();
   entry.t_ns = frame.t_ns;
   if (last_image_ns_ && frame.t_ns <= *last_image_ns_) {
@@ -96,32 +102,13 @@ void DepthEngine::receive(const StereoFrame& frame) {
 }
 
 void DepthEngine::receive(const LidarPacket& packet) {
-  const std::int64_t end_ns = end_of(packet);
-  saw(end_ns);
-  lidar_ns_ = std::max(lidar_ns_, end_ns);
-  if (packet.returns.empty()) {
-    ++dropped_["LiDAR packet without returns"];
-    return;
-  }
-  packets_.push_back(packet);
+  aligner_.add(packet);
+  lidar_ns_ = std::max(lidar_ns_, end_of(packet));
 }
 
-void DepthEngine::receive(const AttitudeSample& sample) {
-  saw(sample.t_ns);
-  if (!poses_.add(sample)) ++dropped_["attitude out of order or not finite"];
+bool DepthEngine::lidar_silent() const {
+  return to_seconds(*aligner_.now_ns() - lidar_ns_) > config_.lidar_timeout_s;
 }
-
-void DepthEngine::receive(const PositionSample& sample) {
-  saw(sample.t_ns);
-  if (!poses_.add(sample)) ++dropped_["position out of order or not finite"];
-}
-
-void DepthEngine::receive(const HeightSample& sample) {
-  saw(sample.t_ns);
-  heights_.add(sample);
-}
-
-bool DepthEngine::lidar_silent() const { return to_seconds(*now_ns_ - lidar_ns_) > config_.lidar_timeout_s; }
 
 int DepthEngine::open_count() const {
   return static_cast<int>(
@@ -129,31 +116,17 @@ int DepthEngine::open_count() const {
 }
 
 void DepthEngine::work() {
-  place_packets();
+  while (auto packet = aligner_.next()) place(std::move(*packet));
   open_images();
   advance_tasks();
   forget();
 }
 
-/// In order of arrival; one that waits for its pose holds back those behind it, which are later still.
-void DepthEngine::place_packets() {
-  while (!packets_.empty()) {
-    const std::int64_t end_ns = end_of(packets_.front());
-    const bool late = to_seconds(*now_ns_ - end_ns) > config_.max_wait_s;
-    if (!poses_.settled(end_ns) && !late) return;
-    place(packets_.front());
-    packets_.pop_front();
-  }
-}
-
-void DepthEngine::place(const LidarPacket& packet) {
-  auto world =
-      std::make_shared<WorldPacket>(to_world(packet, poses_.trajectory(), T_imu_lidar_, placed_end_ns_));
-  placed_end_ns_ = world->end_ns;
-  if (world->without_pose > 0) dropped_["LiDAR point without pose"] += world->without_pose;
-  if (world->points.empty()) return;
-  if (config_.register_heights) world->height_shift_m = registration_.add(*world);
-  accumulator_.add(world);
+void DepthEngine::place(WorldPacket packet) {
+  if (packet.points.empty()) return;
+  if (config_.register_heights) packet.height_shift_m = registration_.add(packet);
+  const auto world = std::make_shared<const WorldPacket>(std::move(packet));
+  window_.add(world);
   for (Entry& entry : entries_) {
     const bool wanted = config_.history_s > 0 || world->end_ns > entry.t_ns;
     if (entry.task && wanted) entry.task->offer(world);
@@ -163,11 +136,13 @@ void DepthEngine::place(const LidarPacket& packet) {
 void DepthEngine::open_images() {
   for (Entry& entry : entries_) {
     if (!entry.frame) continue;
-    if (const auto T_world_imu = poses_.trajectory().T_world_imu(entry.t_ns)) {
+    if (const auto T_world_imu = aligner_.T_world_imu(entry.t_ns)) {
       open(entry, *T_world_imu * rig_.T_camera_imu.inverse());
-    } else if (poses_.settled(entry.t_ns)) {
+    } else if (aligner_.finished()) {
+      give_up(entry, std::string("no pose: ") + kLogEnded);
+    } else if (aligner_.settled(entry.t_ns)) {
       give_up(entry, "no pose: attitude or position has a gap there");
-    } else if (to_seconds(*now_ns_ - entry.t_ns) > config_.max_wait_s) {
+    } else if (aligner_.late(entry.t_ns)) {
       give_up(entry, "no pose: attitude or position did not come in time");
     }
   }
@@ -185,7 +160,7 @@ void DepthEngine::open(Entry& entry, const Eigen::Isometry3d& T_world_camera) {
     if (!entry.frame->right.empty()) view.right = rectifier_.rectify_right(entry.frame->right)(crop_).clone();
   }
   DepthPredictor* predictor = entry.frame->left.empty() ? nullptr : predictor_.get();
-  view.height_m = heights_.at_or_latest(entry.t_ns, kMaxHeightAge_ns);
+  view.height_m = aligner_.heights().at_or_latest(entry.t_ns, kMaxHeightAge_ns);
   entry.frame.reset();
   int first_packets = 0;
   bool ask_network = true;
@@ -194,11 +169,11 @@ void DepthEngine::open(Entry& entry, const Eigen::Isometry3d& T_world_camera) {
       std::make_unique<ImageTask>(config_.image, rig_, ask_network ? predictor : nullptr, entry.t_ns,
                                   std::move(view), T_world_camera, std::move(stages_ms), first_packets);
   if (config_.history_s > 0) {
-    for (const auto& packet : accumulator_.before(entry.t_ns, config_.history_s, config_.history_s + 0.5)) {
+    for (const auto& packet : window_.before(entry.t_ns, config_.history_s, config_.history_s + 0.5)) {
       entry.task->offer(packet);
     }
   }
-  for (const auto& packet : accumulator_.after(entry.t_ns)) entry.task->offer(packet);
+  for (const auto& packet : window_.after(entry.t_ns)) entry.task->offer(packet);
 }
 
 void DepthEngine::pre_empt_before(std::int64_t t_ns) {
@@ -213,7 +188,7 @@ void DepthEngine::advance_tasks() {
   const bool silent = lidar_silent();
   for (Entry& entry : entries_) {
     if (!entry.task) continue;
-    const double age_s = to_seconds(*now_ns_ - entry.t_ns);
+    const double age_s = to_seconds(*aligner_.now_ns() - entry.t_ns);
     if (entry.task->advance(silent)) {
       conclude(entry);
     } else if (age_s > config_.image.max_accumulation_s + config_.max_wait_s) {
@@ -258,21 +233,17 @@ void DepthEngine::give_up(Entry& entry, const std::string& reason) {
 /// The oldest image that may still be opened is max_wait_s old; its LiDAR reaches back history_s and one packet.
 void DepthEngine::forget() {
   const double keep_s = config_.history_s + config_.image.max_accumulation_s + config_.max_wait_s + 1.0;
-  const std::int64_t before_ns = *now_ns_ - to_nanoseconds(keep_s);
-  accumulator_.forget_before(before_ns);
-  poses_.forget_before(before_ns);
-  heights_.forget_before(before_ns);
+  const std::int64_t before_ns = *aligner_.now_ns() - to_nanoseconds(keep_s);
+  window_.forget_before(before_ns);
+  aligner_.forget_before(before_ns);
 }
 
 void DepthEngine::finish() {
-  if (!now_ns_) return;
-  while (!packets_.empty()) {
-    place(packets_.front());
-    packets_.pop_front();
-  }
+  if (!aligner_.now_ns()) return;
+  aligner_.finish();
+  while (auto packet = aligner_.next()) place(std::move(*packet));
   open_images();
   for (Entry& entry : entries_) {
-    if (entry.frame) give_up(entry, std::string("no pose: ") + kLogEnded);
     if (!entry.task) continue;
     entry.task->close(lidar_silent(), kLogEnded);
     conclude(entry);

@@ -10,13 +10,13 @@
 
 #include "foundation/binder_fwd.hpp"
 #include "geometry/rig/stereo_rectification.hpp"
-#include "infer/depth/accumulator.hpp"
 #include "infer/depth/depth_result.hpp"
 #include "infer/depth/height_registration.hpp"
 #include "infer/depth/image_task.hpp"
 #include "infer/health/health_config.hpp"
 #include "sensors/messages/message_types.hpp"
-#include "sensors/poses/alignment.hpp"
+#include "sensors/poses/packet_aligner.hpp"
+#include "sensors/poses/packet_window.hpp"
 
 namespace alight {
 
@@ -83,10 +83,10 @@ class DepthEngine {
   /// Where the results' images lie in the rectified left image.
   const cv::Rect& crop() const { return crop_; }
   /// What was left out: reason -> count.
-  const std::map<std::string, std::int64_t>& dropped() const { return dropped_; }
+  const std::map<std::string, std::int64_t>& dropped() const { return aligner_.dropped(); }
   /// Images without a delivered result, and LiDAR points held: both bounded in an endless flight.
   std::size_t images_in_flight() const { return entries_.size(); }
-  std::size_t points_held() const { return accumulator_.points(); }
+  std::size_t points_held() const { return window_.points(); }
 
  private:
   /// An image on its way: waiting for a pose (frame), in work (task) or final (result).
@@ -99,14 +99,9 @@ class DepthEngine {
 
   void receive(const StereoFrame& frame);
   void receive(const LidarPacket& packet);
-  void receive(const AttitudeSample& sample);
-  void receive(const PositionSample& sample);
-  void receive(const HeightSample& sample);
-  void saw(std::int64_t t_ns);
 
   void work();
-  void place_packets();
-  void place(const LidarPacket& packet);
+  void place(WorldPacket packet);
   void open_images();
   void open(Entry& entry, const Eigen::Isometry3d& T_world_camera);
   void pre_empt_before(std::int64_t t_ns);
@@ -123,25 +118,19 @@ class DepthEngine {
   StereoRectifier rectifier_;
   cv::Rect crop_;
   RectifiedRig rig_;
-  Eigen::Isometry3d T_imu_lidar_;
   std::shared_ptr<DepthPredictor> predictor_;
-  FlightTrajectory poses_;
-  HeightTrack heights_;
-  Accumulator accumulator_;
+  PacketAligner aligner_;
+  PacketWindow window_;
   HeightRegistration registration_;
-  std::deque<LidarPacket> packets_;  // waiting for a pose
-  std::deque<Entry> entries_;        // images without a delivered result, in order of arrival
-  std::optional<std::int64_t> now_ns_;
+  std::deque<Entry> entries_;  // images without a delivered result, in order of arrival
   std::optional<std::int64_t> last_image_ns_;
   std::int64_t lidar_ns_ = 0;  // end of the latest packet, or the first message
-  std::optional<std::int64_t> placed_end_ns_;
   /// What the images before needed; see ImageTaskConfig::warm_images.
   struct Warmth {
     int packets = 0;
     bool fell_back = false;
     int images = 0;  // that began with it
   } warmth_;
-  std::map<std::string, std::int64_t> dropped_;
 };
 
 }  // namespace alight

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "infer/depth/accumulator.hpp"
 #include "infer/health/ground_memory.hpp"
+#include "sensors/poses/alignment.hpp"
 
 namespace alight {
 

@@ -9,11 +9,11 @@
 
 #include "foundation/binder_fwd.hpp"
 #include "geometry/projection.hpp"
-#include "infer/depth/accumulator.hpp"
 #include "infer/depth/depth_predictor.hpp"
 #include "infer/depth/depth_result.hpp"
 #include "infer/depth/interpolation.hpp"
 #include "infer/depth/self_evaluation.hpp"
+#include "sensors/poses/alignment.hpp"
 
 namespace alight {
 

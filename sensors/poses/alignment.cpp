@@ -1,45 +1,17 @@
 #include "sensors/poses/alignment.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <limits>
 #include <utility>
 
 #include "geometry/frames.hpp"
 
 namespace alight {
+namespace {
 
-bool FlightTrajectory::add(const PositionSample& sample) {
-  return trajectory_.add_position(sample.t_ns, world_.to_world(sample));
-}
+/// A packet after a pause did not measure during the pause.
+constexpr double kLongestPacket_s = 0.2;
 
-void HeightTrack::add(const HeightSample& sample) {
-  if (samples_.empty() || sample.t_ns > samples_.back().t_ns) samples_.push_back(sample);
-}
-
-double HeightTrack::at(std::int64_t t_ns) const {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const auto after = std::lower_bound(samples_.begin(), samples_.end(), t_ns,
-                                      [](const HeightSample& s, std::int64_t t) { return s.t_ns < t; });
-  if (after == samples_.end()) return kNone;
-  if (after->t_ns == t_ns) return after->height_m;
-  if (after == samples_.begin()) return kNone;
-  const auto before = std::prev(after);
-  const std::int64_t gap_ns = after->t_ns - before->t_ns;
-  if (gap_ns > kNanosecondsPerSecond) return kNone;
-  const double share = static_cast<double>(t_ns - before->t_ns) / static_cast<double>(gap_ns);
-  return before->height_m + share * (after->height_m - before->height_m);
-}
-
-double HeightTrack::at_or_latest(std::int64_t t_ns, std::int64_t max_age_ns) const {
-  const bool latest =
-      !samples_.empty() && samples_.back().t_ns < t_ns && t_ns - samples_.back().t_ns <= max_age_ns;
-  return latest ? samples_.back().height_m : at(t_ns);
-}
-
-void HeightTrack::forget_before(std::int64_t t_ns) {
-  while (samples_.size() > 1 && samples_[1].t_ns <= t_ns) samples_.pop_front();
-}
+}  // namespace
 
 AlignedPoints align_points(const std::vector<LidarReturn>& returns, const Trajectory& trajectory,
                            const Eigen::Isometry3d& T_imu_lidar) {
@@ -63,35 +35,27 @@ AlignedPoints align_points(const std::vector<LidarReturn>& returns, const Trajec
   return aligned;
 }
 
-void PointWindow::add(std::vector<WorldPoint> points) {
-  if (points.empty()) return;
-  const auto [first, last] = std::minmax_element(
-      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; });
-  const std::int64_t begin_ns = first->t_ns;
-  const std::int64_t end_ns = last->t_ns;
-  batches_.push_back({begin_ns, end_ns, std::move(points)});
+std::int64_t end_of(const LidarPacket& packet) {
+  std::int64_t end_ns = packet.t_ns;
+  if (!packet.returns.empty()) end_ns = packet.returns.front().t_ns;
+  for (const LidarReturn& echo : packet.returns) end_ns = std::max(end_ns, echo.t_ns);
+  return end_ns;
 }
 
-void PointWindow::forget_before(std::int64_t t_ns) {
-  while (!batches_.empty() && batches_.front().end_ns < t_ns) batches_.pop_front();
-}
-
-int PointWindow::project(std::int64_t begin_ns, std::int64_t end_ns, const Eigen::Isometry3d& T_camera_world,
-                         const PinholeIntrinsics& intrinsics, std::int64_t t_image_ns,
-                         const DepthRange& range, SparseDepth& out) const {
-  int inside = 0;
-  for (const Batch& batch : batches_) {
-    if (batch.end_ns < begin_ns || batch.begin_ns > end_ns) continue;
-    if (batch.begin_ns >= begin_ns && batch.end_ns <= end_ns) {
-      inside += project_points(batch.points, T_camera_world, intrinsics, t_image_ns, range, out);
-      continue;
-    }
-    std::vector<WorldPoint> part;
-    std::copy_if(batch.points.begin(), batch.points.end(), std::back_inserter(part),
-                 [&](const WorldPoint& point) { return point.t_ns >= begin_ns && point.t_ns <= end_ns; });
-    inside += project_points(part, T_camera_world, intrinsics, t_image_ns, range, out);
-  }
-  return inside;
+WorldPacket to_world(const LidarPacket& packet, const Trajectory& trajectory,
+                     const Eigen::Isometry3d& T_imu_lidar, std::optional<std::int64_t> previous_end_ns) {
+  WorldPacket world;
+  world.end_ns = end_of(packet);
+  world.begin_ns = world.end_ns;
+  for (const LidarReturn& echo : packet.returns) world.begin_ns = std::min(world.begin_ns, echo.t_ns);
+  AlignedPoints aligned = align_points(packet.returns, trajectory, T_imu_lidar);
+  world.points = std::move(aligned.points);
+  world.without_pose = aligned.without_pose;
+  world.duration_s = to_seconds(world.end_ns - world.begin_ns);
+  if (world.duration_s <= 0 && previous_end_ns)
+    world.duration_s = to_seconds(world.end_ns - *previous_end_ns);
+  world.duration_s = std::clamp(world.duration_s, 0.0, kLongestPacket_s);
+  return world;
 }
 
 }  // namespace alight

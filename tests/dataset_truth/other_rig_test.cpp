@@ -18,7 +18,7 @@
 #include "foundation/config_reader.hpp"
 #include "geometry/rig/find_rig_file.hpp"
 #include "sensors/messages/livox_custom_msg.hpp"
-#include "sensors/poses/alignment.hpp"
+#include "sensors/poses/flight_trajectory.hpp"
 #include "sensors/stream/flight_log.hpp"
 #include "sim/record/simulated_log.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -44,7 +44,8 @@ Eigen::Vector3d hit(const Plane& plane, const Eigen::Isometry3d& T_world_lidar,
 
 class PlaneFlight {
  public:
-  explicit PlaneFlight(PointPose point_pose) : builder_(rig_, config(), point_pose) {}
+  /// @param point_times false: a driver that gives all points of a packet the packet's stamp
+  explicit PlaneFlight(bool point_times) : point_times_(point_times), builder_(rig_, config()) {}
 
   static DepthMapConfig config() {
     DepthMapConfig config;
@@ -114,11 +115,13 @@ class PlaneFlight {
       const Eigen::Isometry3d T_world_lidar =
           moving_pose(to_seconds(point_ns - kStart_ns)) * rig.T_camera_imu.inverse() * rig.T_camera_lidar;
       const Eigen::Vector3d ray(1, lateral(random_), lateral(random_));
-      packet.returns.push_back({point_ns, hit(plane_, T_world_lidar, ray).cast<float>(), 0});
+      packet.returns.push_back(
+          {point_times_ ? point_ns : t_ns, hit(plane_, T_world_lidar, ray).cast<float>(), 0});
     }
     return packet;
   }
 
+  bool point_times_;
   Rig rig_ = small_rig();
   Plane plane_;
   LocalEnu enu_{31.3, 121.5, 20.0};
@@ -127,7 +130,7 @@ class PlaneFlight {
 };
 
 TEST(DepthMapBuilder, AMovingTurningVehicleSeesAPlaneToTheMillimetre) {
-  PlaneFlight flight(PointPose::kOwnTime);
+  PlaneFlight flight(true);
   const auto samples = flight.fly();
   ASSERT_GE(samples.size(), 10u);
   for (const BuiltSample& sample : samples) {
@@ -137,9 +140,9 @@ TEST(DepthMapBuilder, AMovingTurningVehicleSeesAPlaneToTheMillimetre) {
   }
 }
 
-/// The same check fails where every point gets the image's pose: it does see the alignment.
-TEST(DepthMapBuilder, WithoutInterpolationThePlaneIsDecimetresOff) {
-  PlaneFlight flight(PointPose::kImageTime);
+/// The same check fails where the points of a packet share one pose: it does see the alignment.
+TEST(DepthMapBuilder, WithoutPointTimesThePlaneIsDecimetresOff) {
+  PlaneFlight flight(false);
   const auto samples = flight.fly();
   ASSERT_GE(samples.size(), 10u);
   for (const BuiltSample& sample : samples) {

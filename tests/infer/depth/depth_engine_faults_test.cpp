@@ -71,7 +71,7 @@ TEST_P(DepthEngineFaultModes, WithoutPosesEveryImageSaysSo) {
     EXPECT_EQ(result.source, DepthSource::kNone);
     EXPECT_EQ(result.reason.rfind("no pose", 0), 0U) << result.reason;
   }
-  EXPECT_GT(out.dropped.at("LiDAR point without pose"), 0);
+  EXPECT_GT(out.dropped.at("LiDAR points without a pose"), 0);
 }
 
 TEST_P(DepthEngineFaultModes, LateMessagesAreWaitedFor) {
@@ -102,7 +102,7 @@ TEST(DepthEngine, PoseGapIsNeverBridged) {
     EXPECT_EQ(result.source == DepthSource::kNone, in_gap(result.t_ns))
         << to_seconds(result.t_ns - kStart_ns);
   }
-  EXPECT_GT(out.dropped.at("LiDAR point without pose"), 2000);
+  EXPECT_GT(out.dropped.at("LiDAR points without a pose"), 2000);
 }
 
 TEST(DepthEngine, LidarThatDiesMidFlightLeavesTheFallbackOnlyWhileItIsFresh) {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/frames.hpp"
-
 namespace alight {
 namespace {
+
+constexpr std::int64_t kMillisecond = 1'000'000;
 
 Trajectory straight_flight() {
   Trajectory trajectory(0.25);
@@ -56,49 +56,53 @@ TEST(AlignPoints, NeverExtrapolates) {
   EXPECT_EQ(aligned.without_pose, 2);
 }
 
-TEST(HeightTrack, InterpolatesAndKnowsItsLimits) {
-  HeightTrack track;
-  EXPECT_TRUE(std::isnan(track.at(0)));
-  track.add({0, 10});
-  track.add({100, 20});
-  track.add({50, 99});  // not later than the last: dropped
-  EXPECT_DOUBLE_EQ(track.at(0), 10);
-  EXPECT_DOUBLE_EQ(track.at(25), 12.5);
-  EXPECT_TRUE(std::isnan(track.at(101)));
-  EXPECT_TRUE(std::isnan(track.at(-1)));
-  track.add({100 + 2 * kNanosecondsPerSecond, 30});
-  EXPECT_TRUE(std::isnan(track.at(200)));
-  track.forget_before(100);
-  EXPECT_TRUE(std::isnan(track.at(25)));
-  EXPECT_DOUBLE_EQ(track.at(100), 20);
+TEST(ToWorld, EveryPointGoesThroughItsOwnPose) {
+  Trajectory trajectory(0.5);
+  for (int i = 0; i <= 10; ++i) {
+    trajectory.add_attitude(i * 100 * kMillisecond, Eigen::Quaterniond::Identity());
+    trajectory.add_position(i * 100 * kMillisecond, Eigen::Vector3d(i, 0, 50));  // 10 m/s
+  }
+  LidarPacket packet;
+  packet.t_ns = 200 * kMillisecond;
+  for (int i = 0; i < 100; ++i) {
+    packet.returns.push_back({200 * kMillisecond + i * kMillisecond, Eigen::Vector3f(1, 2, 3), 0});
+  }
+  Eigen::Isometry3d T_imu_lidar = Eigen::Isometry3d::Identity();
+  T_imu_lidar.translation() = Eigen::Vector3d(0, 0, -0.5);
+  const WorldPacket world = to_world(packet, trajectory, T_imu_lidar, {});
+  ASSERT_EQ(world.points.size(), 100U);
+  EXPECT_NEAR(world.duration_s, 0.099, 1e-9);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_LT(
+        (world.points[static_cast<std::size_t>(i)].p_world - Eigen::Vector3d(3 + 0.01 * i, 2, 52.5)).norm(),
+        1e-9);
+  }
 }
 
-TEST(PointWindow, ProjectsOnlyItsSpanOfTime) {
-  const PinholeIntrinsics intrinsics{10, 10, 4.5, 4.5, 10, 10};
-  PointWindow window;
-  window.add({{0, {0, 0, 5}}, {100, {1, 0, 5}}});
-  window.add({});
-  window.add({{200, {-1, 0, 5}}, {300, {0, 1, 5}}});
-  const auto count = [&](std::int64_t begin_ns, std::int64_t end_ns) {
-    SparseDepth out = SparseDepth::empty(intrinsics.size());
-    return window.project(begin_ns, end_ns, Eigen::Isometry3d::Identity(), intrinsics, 0, {0.5, 100}, out);
-  };
-  EXPECT_EQ(count(0, 300), 4);
-  EXPECT_EQ(count(1, 299), 2);
-  EXPECT_EQ(count(100, 100), 1);
-  EXPECT_EQ(count(301, 400), 0);
-  window.forget_before(101);
-  EXPECT_EQ(count(0, 300), 2);
+TEST(ToWorld, CountsPointsWithoutAPose) {
+  Trajectory trajectory(0.5);
+  trajectory.add_attitude(0, Eigen::Quaterniond::Identity());
+  trajectory.add_position(0, Eigen::Vector3d::Zero());
+  trajectory.add_attitude(50 * kMillisecond, Eigen::Quaterniond::Identity());
+  trajectory.add_position(50 * kMillisecond, Eigen::Vector3d::Zero());
+  LidarPacket packet;
+  for (int i = 0; i < 10; ++i) packet.returns.push_back({i * 10 * kMillisecond, Eigen::Vector3f(1, 0, 0), 0});
+  const WorldPacket world = to_world(packet, trajectory, Eigen::Isometry3d::Identity(), {});
+  EXPECT_EQ(world.points.size(), 6U);
+  EXPECT_EQ(world.without_pose, 4);
 }
 
-TEST(HeightTrack, TakesTheLatestOnlyWhileItIsFresh) {
-  HeightTrack track;
-  track.add({1'000, 10.0});
-  track.add({2'000, 12.0});
-  EXPECT_EQ(track.at_or_latest(1'500, 100), 11.0);
-  EXPECT_EQ(track.at_or_latest(2'100, 100), 12.0);
-  EXPECT_TRUE(std::isnan(track.at_or_latest(2'101, 100)));
-  EXPECT_TRUE(std::isnan(track.at_or_latest(900, 100)));
+TEST(ToWorld, PacketsWithoutPointTimesLastSinceTheOneBefore) {
+  Trajectory trajectory(0.5);
+  LidarPacket packet;
+  packet.t_ns = 500 * kMillisecond;
+  packet.returns.resize(3);
+  for (auto& echo : packet.returns) echo.t_ns = packet.t_ns;
+  EXPECT_NEAR(to_world(packet, trajectory, Eigen::Isometry3d::Identity(), 400 * kMillisecond).duration_s, 0.1,
+              1e-9);
+  EXPECT_NEAR(to_world(packet, trajectory, Eigen::Isometry3d::Identity(), 0).duration_s, 0.2, 1e-9)
+      << "a pause";
+  EXPECT_EQ(to_world(packet, trajectory, Eigen::Isometry3d::Identity(), {}).duration_s, 0);
 }
 
 }  // namespace
