@@ -1,7 +1,9 @@
 #include <string>
 #include <vector>
 
-#include "closed_loop/sim_commands.hpp"
+#include "closed_loop/campaign_command.hpp"
+#include "closed_loop/fly_command.hpp"
+#include "closed_loop/land_command.hpp"
 #include "foundation/command_line.hpp"
 #include "foundation/errors.hpp"
 

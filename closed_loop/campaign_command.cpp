@@ -1,10 +1,13 @@
+#include "closed_loop/campaign_command.hpp"
+
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 
 #include "closed_loop/campaign.hpp"
 #include "closed_loop/campaign_report.hpp"
-#include "closed_loop/sim_commands.hpp"
+#include "closed_loop/land_config.hpp"
+#include "closed_loop/network_choice.hpp"
 #include "foundation/command_line.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"

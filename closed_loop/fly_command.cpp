@@ -1,3 +1,5 @@
+#include "closed_loop/fly_command.hpp"
+
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -7,8 +9,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include "closed_loop/sim_commands.hpp"
 #include "foundation/command_line.hpp"
+#include "foundation/errors.hpp"
 #include "sim/record/board_recorder.hpp"
 #include "sim/record/simulated_log.hpp"
 #include "sim/truth/flight_score.hpp"

@@ -1,3 +1,5 @@
+#include "closed_loop/land_command.hpp"
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -5,9 +7,10 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "closed_loop/land_config.hpp"
 #include "closed_loop/landing_flight.hpp"
 #include "closed_loop/landing_pictures.hpp"
-#include "closed_loop/sim_commands.hpp"
+#include "closed_loop/network_choice.hpp"
 #include "foundation/command_line.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"

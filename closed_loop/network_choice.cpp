@@ -1,4 +1,5 @@
-#include "closed_loop/sim_commands.hpp"
+#include "closed_loop/network_choice.hpp"
+
 #include "foundation/errors.hpp"
 #include "foundation/shipped_files.hpp"
 #ifdef ALIGHT_SIM_WITH_NETWORK

@@ -9,6 +9,7 @@
 #include "geometry/frames.hpp"
 #include "sensors/bag/bag_index.hpp"
 #include "sensors/bag/bag_messages.hpp"
+#include "sensors/messages/pose_decoders.hpp"
 
 namespace alight {
 namespace {

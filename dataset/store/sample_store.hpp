@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "dataset/store/dataset_info.hpp"
 #include "foundation/errors.hpp"
 #include "geometry/projection.hpp"
 #include "geometry/rig/stereo_rectification.hpp"
@@ -23,8 +24,6 @@
 ///     <flight>/dense/000000.png    simulated flights: true depth of every pixel, as depth/; for evaluation only
 namespace alight {
 
-constexpr int kDatasetFormatVersion = 1;
-
 /// One line of samples.csv.
 struct SampleRow {
   int index = 0;
@@ -37,26 +36,6 @@ struct SampleRow {
   double height_m = std::numeric_limits<double>::quiet_NaN();  ///< above take-off; NaN: unknown
 };
 
-struct FlightEntry {
-  std::string name;  ///< the bag's name without .bag; the folder's name
-  int samples = 0;
-  std::map<std::string, std::int64_t> dropped;  ///< what was left out: reason -> count
-  bool has_right = false;
-  bool has_dense = false;
-};
-
-/// dataset.yaml.
-struct DatasetInfo {
-  int format_version = kDatasetFormatVersion;
-  RectifiedRig rig;           ///< of the cropped images
-  double depth_scale = 256;   ///< file value = depth_scale * metres
-  double accumulation_s = 0;  ///< length of the window whose points a depth map holds: before + after
-  double window_before_s = 0;
-  double window_after_s = 0;
-  std::vector<FlightEntry> flights;
-  std::string config;  ///< the resolved configuration that built it, YAML
-};
-
 /// One sample's pictures.
 struct Sample {
   cv::Mat left;   ///< CV_8UC3 BGR or CV_8UC1
@@ -64,9 +43,6 @@ struct Sample {
   SparseDepth sparse;
   cv::Mat dense_m;  ///< CV_32FC1; empty if there is none or it was not asked for
 };
-
-/// @throws DataError naming the file: not there, not readable, of a newer format version
-DatasetInfo read_dataset_info(const std::filesystem::path& dir);
 
 /// @throws DataError naming file and line
 std::vector<SampleRow> read_samples(const std::filesystem::path& dir, const std::string& flight);
@@ -78,7 +54,6 @@ Sample read_sample(const std::filesystem::path& dir, const FlightEntry& flight, 
 /// The left image alone (a neighbour in time). @throws DataError naming the file
 cv::Mat read_left(const std::filesystem::path& dir, const FlightEntry& flight, int index);
 
-void write_dataset_info(const std::filesystem::path& dir, const DatasetInfo& info);
 /// Makes the flight's folders.
 void create_flight_folders(const std::filesystem::path& dir, const FlightEntry& flight);
 void write_samples(const std::filesystem::path& dir, const std::string& flight,

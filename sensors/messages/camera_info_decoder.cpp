@@ -1,8 +1,9 @@
+#include "sensors/messages/camera_info_decoder.hpp"
+
 #include <array>
 #include <string>
 
 #include "geometry/rig/ros_lens.hpp"
-#include "sensors/messages/decoders.hpp"
 
 namespace alight {
 

@@ -14,7 +14,13 @@
 #include <std_msgs/Float32.h>
 
 #include "foundation/errors.hpp"
+#include "sensors/messages/camera_info_decoder.hpp"
+#include "sensors/messages/image_decoders.hpp"
 #include "sensors/messages/livox_custom_msg.hpp"
+#include "sensors/messages/livox_decoder.hpp"
+#include "sensors/messages/point_cloud_decoder.hpp"
+#include "sensors/messages/pose_decoders.hpp"
+#include "sensors/messages/vehicle_decoders.hpp"
 
 namespace alight {
 namespace {

@@ -67,44 +67,4 @@ const Decoder* find_decoder(LogRole role, const std::string& type);
 /// "geometry_msgs/QuaternionStamped, sensor_msgs/Imu"
 std::string accepted_types(LogRole role);
 
-/// sensor_msgs/Image: mono8, mono16, rgb8, bgr8, rgba8, bgra8, bayer_{rggb,bggr,gbrg,grbg}8, yuv422, yuv422_yuy2.
-std::optional<DecodedMessage> decode_image(const RawMessage& message, const DecodeOptions& options);
-/// sensor_msgs/CompressedImage: JPEG and PNG.
-std::optional<DecodedMessage> decode_compressed_image(const RawMessage& message,
-                                                      const DecodeOptions& options);
-/// livox_ros_driver/CustomMsg. A point's time is header.stamp + offset_time: the stamp is what clock
-/// corrections rewrite, `timebase` stays on the sensor's own clock.
-std::optional<DecodedMessage> decode_livox(const RawMessage& message, const DecodeOptions& options);
-/// sensor_msgs/PointCloud2 with x, y, z and, where there are, intensity or reflectivity and a time of each point, in
-/// whatever order, type and byte order.
-std::optional<DecodedMessage> decode_point_cloud(const RawMessage& message, const DecodeOptions& options);
-/// geometry_msgs/QuaternionStamped.
-std::optional<DecodedMessage> decode_quaternion(const RawMessage& message, const DecodeOptions& options);
-/// sensor_msgs/Imu, its orientation; empty where the message says that it has none (covariance[0] = -1).
-std::optional<DecodedMessage> decode_imu_attitude(const RawMessage& message, const DecodeOptions& options);
-/// sensor_msgs/NavSatFix; empty where the receiver has no fix.
-std::optional<DecodedMessage> decode_fix(const RawMessage& message, const DecodeOptions& options);
-/// geometry_msgs/PointStamped: metres.
-std::optional<DecodedMessage> decode_point(const RawMessage& message, const DecodeOptions& options);
-/// geometry_msgs/PoseStamped, nav_msgs/Odometry, geometry_msgs/TransformStamped (whatever its frames) and
-/// tf2_msgs/TFMessage (empty where `options.frames` are not in it; a transform the other way round is inverted).
-std::optional<DecodedMessage> decode_pose_attitude(const RawMessage& message, const DecodeOptions& options);
-std::optional<DecodedMessage> decode_pose_position(const RawMessage& message, const DecodeOptions& options);
-std::optional<DecodedMessage> decode_odometry_attitude(const RawMessage& message,
-                                                       const DecodeOptions& options);
-std::optional<DecodedMessage> decode_odometry_position(const RawMessage& message,
-                                                       const DecodeOptions& options);
-std::optional<DecodedMessage> decode_transform_attitude(const RawMessage& message,
-                                                        const DecodeOptions& options);
-std::optional<DecodedMessage> decode_transform_position(const RawMessage& message,
-                                                        const DecodeOptions& options);
-std::optional<DecodedMessage> decode_tf_attitude(const RawMessage& message, const DecodeOptions& options);
-std::optional<DecodedMessage> decode_tf_position(const RawMessage& message, const DecodeOptions& options);
-/// (parent, child) of the transforms of a tf2_msgs/TFMessage. @throws DecodeError
-std::vector<std::pair<std::string, std::string>> transform_frames(const RawMessage& message);
-/// std_msgs/Float32 as a height; it has no stamp, its time is the receive time.
-std::optional<DecodedMessage> decode_float_height(const RawMessage& message, const DecodeOptions& options);
-/// sensor_msgs/CameraInfo; empty where the camera is not calibrated (K is zero).
-std::optional<DecodedMessage> decode_camera_info(const RawMessage& message, const DecodeOptions& options);
-
 }  // namespace alight

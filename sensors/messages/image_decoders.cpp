@@ -1,10 +1,11 @@
+#include "sensors/messages/image_decoders.hpp"
+
 #include <algorithm>
 #include <string>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "sensors/messages/decoders.hpp"
 #include "sensors/messages/jpeg_decoder.hpp"
 
 namespace alight {

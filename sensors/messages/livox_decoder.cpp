@@ -1,6 +1,7 @@
+#include "sensors/messages/livox_decoder.hpp"
+
 #include <algorithm>
 
-#include "sensors/messages/decoders.hpp"
 #include "sensors/messages/lidar_points.hpp"
 #include "sensors/messages/livox_custom_msg.hpp"
 #include "sensors/messages/point_times.hpp"

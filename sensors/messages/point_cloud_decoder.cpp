@@ -1,10 +1,11 @@
+#include "sensors/messages/point_cloud_decoder.hpp"
+
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sensors/messages/decoders.hpp"
 #include "sensors/messages/lidar_points.hpp"
 #include "sensors/messages/point_times.hpp"
 

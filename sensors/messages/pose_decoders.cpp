@@ -1,4 +1,5 @@
-#include "sensors/messages/decoders.hpp"
+#include "sensors/messages/pose_decoders.hpp"
+
 #include "sensors/messages/pose_reading.hpp"
 
 /// Messages that carry a pose: attitude and position are read of them separately, so that one topic may serve as either

@@ -1,7 +1,8 @@
+#include "sensors/messages/vehicle_decoders.hpp"
+
 #include <cmath>
 #include <string>
 
-#include "sensors/messages/decoders.hpp"
 #include "sensors/messages/pose_reading.hpp"
 
 namespace alight {

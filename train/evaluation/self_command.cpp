@@ -12,6 +12,8 @@
 #include "infer/replay/replay.hpp"
 #include "train/evaluation/methods/network_method.hpp"
 #include "train/evaluation/scores/whole_dataset.hpp"
+#include "train/evaluation/self/self_figure.hpp"
+#include "train/evaluation/self/self_markdown.hpp"
 #include "train/evaluation/self/self_report.hpp"
 #include "train/train_config.hpp"
 

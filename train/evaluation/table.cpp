@@ -7,6 +7,7 @@
 
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"
+#include "train/evaluation/table_markdown.hpp"
 
 namespace alight {
 namespace {

@@ -7,9 +7,6 @@
 
 namespace alight {
 
-/// For readers: a table a region and metric, methods as rows, feedings as columns, each cell the mean over flights and
-/// its standard error over flights. `*` marks cells in which the altitude plane stands in for a method.
-std::string to_markdown(const EvaluationReport& report);
 /// A line a method, feeding, region and metric: pooled value, mean over flights, standard error, counts.
 std::string to_csv(const EvaluationReport& report);
 /// Everything, with the values of every flight.

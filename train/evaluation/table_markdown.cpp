@@ -1,9 +1,9 @@
+#include "train/evaluation/table_markdown.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
-
-#include "train/evaluation/table.hpp"
 
 namespace alight {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "foundation/errors.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "train/evaluation/table_markdown.hpp"
 
 namespace alight {
 namespace {

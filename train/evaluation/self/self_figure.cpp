@@ -1,3 +1,5 @@
+#include "train/evaluation/self/self_figure.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,6 @@
 
 #include "foundation/errors.hpp"
 #include "pictures/chart.hpp"
-#include "train/evaluation/self/self_report.hpp"
 
 namespace alight {
 namespace {

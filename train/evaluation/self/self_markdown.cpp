@@ -1,9 +1,10 @@
+#include "train/evaluation/self/self_markdown.hpp"
+
 #include <cmath>
 #include <functional>
 #include <map>
 
 #include "foundation/text_format.hpp"
-#include "train/evaluation/self/self_report.hpp"
 
 namespace alight {
 namespace {

@@ -54,11 +54,7 @@ struct DecisionRates {
 DecisionRates rates_of(const MapList& maps, const Decision& decision, const SelfEvaluationConfig& tests,
                        std::size_t definition = 0);
 
-std::string to_markdown(const SelfReport& report);
 /// One line a map, with a head.
 std::string to_csv(const SelfReport& report);
-/// ROC curves of the criteria and the decisions as dots, of the network's own maps and of all. CV_8UC3
-/// @throws DataError where there are not both good maps and others
-cv::Mat draw_roc(const SelfReport& report);
 
 }  // namespace alight

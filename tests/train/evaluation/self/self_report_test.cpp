@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "foundation/errors.hpp"
+#include "train/evaluation/self/self_figure.hpp"
+#include "train/evaluation/self/self_markdown.hpp"
 
 namespace alight {
 namespace {

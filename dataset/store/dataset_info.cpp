@@ -1,10 +1,11 @@
+#include "dataset/store/dataset_info.hpp"
+
 #include <fstream>
 #include <sstream>
 
 #include <yaml-cpp/yaml.h>
 
 #include "dataset/store/flight_section.hpp"
-#include "dataset/store/sample_store.hpp"
 #include "foundation/config_reader.hpp"
 
 namespace alight {
