@@ -7,7 +7,7 @@
 
 #include "accuracy/landing_rules.hpp"
 #include "accuracy/safe_mask_score.hpp"
-#include "bench/scene.hpp"
+#include "accuracy/scene.hpp"
 #include "foundation/command_line.hpp"
 #include "foundation/progress_bar.hpp"
 #include "geometry/reprojection.hpp"

@@ -3,7 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bench/scene.hpp"
+#include "accuracy/scene.hpp"
 #include "geometry/projection.hpp"
 #include "geometry/reprojection.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bench/scene.hpp"
+#include "accuracy/scene.hpp"
 #include "geometry/reprojection.hpp"
 #include "infer/landing/memory/fused_selection.hpp"
 #include "infer/landing/site_selection.hpp"

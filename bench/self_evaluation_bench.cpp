@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "bench/scene.hpp"
+#include "accuracy/scene.hpp"
 #include "infer/depth/interpolation.hpp"
 #include "infer/depth/self_evaluation.hpp"
 

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "closed_loop/campaign.hpp"
-#include "closed_loop/campaign_report.hpp"
-#include "closed_loop/land_config.hpp"
-#include "closed_loop/network_choice.hpp"
+#include "closed_loop/campaign/campaign.hpp"
+#include "closed_loop/campaign/campaign_report.hpp"
+#include "closed_loop/landing/land_config.hpp"
+#include "closed_loop/landing/network_choice.hpp"
 #include "foundation/command_line.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"

@@ -7,10 +7,10 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "closed_loop/land_config.hpp"
-#include "closed_loop/landing_flight.hpp"
-#include "closed_loop/landing_pictures.hpp"
-#include "closed_loop/network_choice.hpp"
+#include "closed_loop/landing/land_config.hpp"
+#include "closed_loop/landing/landing_flight.hpp"
+#include "closed_loop/landing/landing_pictures.hpp"
+#include "closed_loop/landing/network_choice.hpp"
 #include "foundation/command_line.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"

@@ -16,6 +16,12 @@ if(ALIGHT_SANITIZE)
   add_link_options(-fsanitize=${ALIGHT_SANITIZE})
 endif()
 
+option(ALIGHT_COVERAGE "Count which lines run (gcc)" OFF)
+if(ALIGHT_COVERAGE)
+  add_compile_options(--coverage)
+  add_link_options(--coverage)
+endif()
+
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # A precompiled header needs these sloppiness settings to be cached (ccache manual, "Precompiled headers").

@@ -24,7 +24,7 @@ packages=(
 full_packages=(python3-torch python3-yaml python3-numpy python3-opencv chromium
                opencv-doc                     # real stereo images of a chessboard
                python3-roslaunch python3-rosmaster rosout)  # a ROS 1 master; python3-rosbag plays
-nightly_packages=(g++ clang-tidy debootstrap)
+nightly_packages=(g++ clang-tidy debootstrap doxygen gcovr)
 
 case "${1:-}" in
   "") ;;

@@ -6,6 +6,7 @@
 # sanitizers  all tests that are free of torch, under AddressSanitizer and UBSan; threads under ThreadSanitizer
 # gcc         everything compiles without a warning by gcc, too
 # tidy        clang-tidy over all sources
+# coverage    which lines the unit tests run: build/coverage/coverage/index.html
 # fuzz        a minute of every fuzz target, and damaged bags (scripts/ci/fuzz.sh)
 # suites      as root with debootstrap: the tests and the demo on bare Debian 12 and 13, and both releases' results compared
 # packages    as root with debootstrap: Debian packages on a bare system
@@ -26,6 +27,7 @@ tidy() {
   cmake --preset dev >/dev/null && cmake --build --preset dev --target alight_torch_pch &&
     run-clang-tidy -quiet -p build/dev -j "$jobs" "$PWD/(?!build)"
 }
+coverage() { scripts/build.sh coverage coverage; }
 fuzz() { scripts/ci/fuzz.sh --jobs "$jobs"; }
 suites() {
   local suite status=0
@@ -38,8 +40,8 @@ suites() {
 }
 packages() { scripts/build.sh release && scripts/ci/package_check.sh; }
 
-all=(slow sanitizers gcc tidy fuzz suites packages)
-[ "${1:-}" != --help ] || { sed -n '2,12s/^# \{0,1\}//p' "$0"; exit 0; }
+all=(slow sanitizers gcc tidy coverage fuzz suites packages)
+[ "${1:-}" != --help ] || { sed -n '2,13s/^# \{0,1\}//p' "$0"; exit 0; }
 for part in "$@"; do
   [[ " ${all[*]} " = *" $part "* ]] || { echo "nightly: $part is no part (parts: ${all[*]})" >&2; exit 2; }
 done

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/scene.hpp"
+#include "accuracy/scene.hpp"
 #include "geometry/reprojection.hpp"
 #include "infer/landing/site_selection.hpp"
 #include "sim/world/world.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "closed_loop/landing_flight.hpp"
+#include "closed_loop/landing/landing_flight.hpp"
 
 namespace alight::closed_loop {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "closed_loop/land_config.hpp"
-#include "closed_loop/landing_verdict.hpp"
+#include "closed_loop/landing/land_config.hpp"
+#include "closed_loop/landing/landing_verdict.hpp"
 #include "infer/depth/depth_predictor.hpp"
 #include "sim/record/bag_writer.hpp"
 #include "sim/record/fault_injector.hpp"

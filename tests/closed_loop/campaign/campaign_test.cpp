@@ -1,4 +1,4 @@
-#include "closed_loop/campaign.hpp"
+#include "closed_loop/campaign/campaign.hpp"
 
 #include <csignal>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "closed_loop/campaign_report.hpp"
+#include "closed_loop/campaign/campaign_report.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "closed_loop/landing_verdict.hpp"
+#include "closed_loop/landing/landing_verdict.hpp"
 
 namespace alight::closed_loop {
 

@@ -1,4 +1,4 @@
-#include "closed_loop/campaign.hpp"
+#include "closed_loop/campaign/campaign.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -15,7 +15,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include "closed_loop/landing_pictures.hpp"
+#include "closed_loop/landing/landing_pictures.hpp"
 #include "foundation/child_exit.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"

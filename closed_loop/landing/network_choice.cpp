@@ -1,4 +1,4 @@
-#include "closed_loop/network_choice.hpp"
+#include "closed_loop/landing/network_choice.hpp"
 
 #include "foundation/errors.hpp"
 #include "foundation/shipped_files.hpp"

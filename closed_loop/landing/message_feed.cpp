@@ -1,4 +1,4 @@
-#include "closed_loop/message_feed.hpp"
+#include "closed_loop/landing/message_feed.hpp"
 
 #include <cstdint>
 

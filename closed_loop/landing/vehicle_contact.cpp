@@ -1,4 +1,4 @@
-#include "closed_loop/vehicle_contact.hpp"
+#include "closed_loop/landing/vehicle_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

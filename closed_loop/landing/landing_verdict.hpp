@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "closed_loop/land_config.hpp"
+#include "closed_loop/landing/land_config.hpp"
 #include "foundation/errors.hpp"
 #include "infer/mission/mission_machine.hpp"
 

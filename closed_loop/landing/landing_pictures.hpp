@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "closed_loop/landing_flight.hpp"
+#include "closed_loop/landing/landing_flight.hpp"
 
 namespace alight::closed_loop {
 

@@ -1,4 +1,4 @@
-#include "closed_loop/landing_flight.hpp"
+#include "closed_loop/landing/landing_flight.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <deque>
 #include <map>
 
-#include "closed_loop/message_feed.hpp"
-#include "closed_loop/vehicle_contact.hpp"
+#include "closed_loop/landing/message_feed.hpp"
+#include "closed_loop/landing/vehicle_contact.hpp"
 #include "foundation/shipped_files.hpp"
 #include "geometry/frames.hpp"
 #include "infer/mission/landing_mission.hpp"

@@ -1,4 +1,4 @@
-#include "closed_loop/landing_flight.hpp"
+#include "closed_loop/landing/landing_flight.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "closed_loop/landing_pictures.hpp"
+#include "closed_loop/landing/landing_pictures.hpp"
 #include "sensors/stream/flight_log.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "closed_loop/campaign_report.hpp"
+#include "closed_loop/campaign/campaign_report.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "closed_loop/landing_pictures.hpp"
+#include "closed_loop/landing/landing_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "closed_loop/land_config.hpp"
+#include "closed_loop/landing/land_config.hpp"
 
 #include "foundation/config_reader.hpp"
 

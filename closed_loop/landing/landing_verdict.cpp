@@ -1,4 +1,4 @@
-#include "closed_loop/landing_verdict.hpp"
+#include "closed_loop/landing/landing_verdict.hpp"
 
 #include <algorithm>
 #include <cmath>

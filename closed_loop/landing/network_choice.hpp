@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "closed_loop/land_config.hpp"
+#include "closed_loop/landing/land_config.hpp"
 #include "infer/depth/depth_predictor.hpp"
 
 namespace alight::closed_loop {
