@@ -16,6 +16,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "foundation/order_statistics.hpp"
 #include "infer/depth/landing_pipeline.hpp"
 #include "infer/onboard/steady_time.hpp"
 #include "infer/replay/stage_benchmark.hpp"
@@ -97,11 +98,6 @@ Run fly(const Rig& rig, const std::vector<LogMessage>& messages, bool with_stati
   for (std::thread& thread : threads) thread.join();
   run.watched = frames;
   return run;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 void compare(int rounds) {

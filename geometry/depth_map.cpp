@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <iterator>
 
 #include <opencv2/imgproc.hpp>
+
+#include "foundation/order_statistics.hpp"
 
 namespace alight {
 
@@ -57,20 +59,37 @@ cv::Mat fill_nearest(const cv::Mat& depth_m, const cv::Mat& region, double max_d
   return filled;
 }
 
+std::vector<float> known_depths(const cv::Mat& depth_m) {
+  std::vector<float> values;
+  values.reserve(depth_m.total());
+  for (int v = 0; v < depth_m.rows; ++v) {
+    std::copy_if(depth_m.ptr<float>(v), depth_m.ptr<float>(v) + depth_m.cols, std::back_inserter(values),
+                 [](float depth) { return depth > 0; });
+  }
+  return values;
+}
+
+std::optional<double> median_depth_m(const cv::Mat& depth_m) {
+  std::vector<float> values = known_depths(depth_m);
+  if (values.empty()) return std::nullopt;
+  return static_cast<double>(median(values));
+}
+
+ColourRange colour_range(const cv::Mat& depth_m) {
+  std::vector<float> values = known_depths(depth_m);
+  if (values.empty()) return {};
+  const std::size_t cut = values.size() / 100;
+  const auto min_m = static_cast<double>(value_at_place(values, cut));
+  return {min_m, std::max(static_cast<double>(value_at_place(values, values.size() - 1 - cut)), min_m + 0.1)};
+}
+
 cv::Mat colour_depth(const cv::Mat& depth_m, double min_m, double max_m) {
   CV_Assert(depth_m.type() == CV_32FC1);
   const cv::Mat known = depth_m > 0;
   if (max_m <= min_m) {
-    std::vector<float> values;
-    values.reserve(depth_m.total());
-    for (int v = 0; v < depth_m.rows; ++v) {
-      std::copy_if(depth_m.ptr<float>(v), depth_m.ptr<float>(v) + depth_m.cols, std::back_inserter(values),
-                   [](float depth) { return depth > 0; });
-    }
-    if (values.empty()) return cv::Mat::zeros(depth_m.size(), CV_8UC3);
-    std::sort(values.begin(), values.end());
-    min_m = values[values.size() / 100];
-    max_m = std::max<double>(values[values.size() - 1 - values.size() / 100], min_m + 0.1);
+    const ColourRange range = colour_range(depth_m);
+    min_m = range.min_m;
+    max_m = range.max_m;
   }
   cv::Mat grey;
   const double scale = 255.0 / (max_m - min_m);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -24,8 +26,21 @@ cv::Mat perspective_to_plane(const cv::Mat& range_m, const PinholeIntrinsics& in
 cv::Mat fill_nearest(const cv::Mat& depth_m, const cv::Mat& region = {},
                      double max_distance_px = std::numeric_limits<double>::infinity());
 
+/// The depths that are known (greater than 0), row by row. @param depth_m CV_32FC1
+std::vector<float> known_depths(const cv::Mat& depth_m);
+
+/// Median of the known depths; empty where there is none. @param depth_m CV_32FC1, 0 = unknown
+std::optional<double> median_depth_m(const cv::Mat& depth_m);
+
+/// From the 1st to the 99th percentile of the known depths and no narrower than 10 cm; 0 to 1 m where there is none.
+struct ColourRange {
+  double min_m = 0;
+  double max_m = 1;
+};
+ColourRange colour_range(const cv::Mat& depth_m);
+
 /// Depth as colours (turbo, near = red, far = blue), BGR CV_8UC3; missing is black. With max_m <= min_m the
-/// range is taken from the 1st and 99th percentile.
+/// range is the map's own, `colour_range`.
 cv::Mat colour_depth(const cv::Mat& depth_m, double min_m = 0, double max_m = 0);
 
 /// 16-bit in 1/256 m, 0 = missing (KITTI's convention); values over 255.99 m saturate. And back.

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "calibrate/clocks/patch_search.hpp"
+#include "foundation/order_statistics.hpp"
 
 namespace alight {
 namespace {
@@ -53,9 +54,7 @@ template <class Value>
 double median_of(const std::vector<Match>& matches, const Value& value) {
   std::vector<double> values;
   for (const Match& match : matches) values.push_back(value(match));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(values);
 }
 
 /// Normal equations of each view and their solution, by iteratively reweighted least squares (Geman-McClure).

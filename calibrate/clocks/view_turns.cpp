@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "calibrate/clocks/patch_search.hpp"
+#include "foundation/order_statistics.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -113,9 +114,7 @@ TurnResiduals::TurnResiduals(const FlightViews& flight, const std::vector<ViewPa
   for (const std::int64_t offset_ns : offsets_ns) {
     std::vector<double> lengths;
     for (const ViewPair& pair : pairs_) lengths.push_back(left_over(pair, offset_ns).turn_rad.norm());
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    best_rad = std::min(best_rad, *middle);
+    best_rad = std::min(best_rad, median(lengths));
   }
   scale_rad_ = std::max(2 * best_rad, 1e-5);
 }

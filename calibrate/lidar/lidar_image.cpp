@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "foundation/order_statistics.hpp"
 #include "geometry/depth_map.hpp"
 
 namespace alight {
@@ -19,9 +20,8 @@ double half_fov(const std::vector<LidarReturn>& points) {
   cosines.reserve(points.size());
   for (const LidarReturn& point : points) cosines.push_back(point.p_lidar.x() / point.p_lidar.norm());
   if (cosines.empty()) return 0.1;
-  const auto cut = cosines.begin() + static_cast<std::ptrdiff_t>(cosines.size() / 1000);
-  std::nth_element(cosines.begin(), cut, cosines.end());
-  return std::clamp(std::acos(static_cast<double>(*cut)), 0.05, kMaxHalfFov_rad);
+  const auto cut = static_cast<double>(value_at_place(cosines, cosines.size() / 1000));
+  return std::clamp(std::acos(cut), 0.05, kMaxHalfFov_rad);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "calibrate/stereo/stereo_bundle.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
+#include "foundation/order_statistics.hpp"
 #include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/rig/stereo_rectification.hpp"
@@ -80,17 +81,16 @@ bool reject_worst(std::vector<StereoView>& views, const std::vector<std::size_t>
     view.rms_right_px = std::sqrt(result.errors[k].right / board.corners());
     rms.push_back(std::sqrt((result.errors[k].left + result.errors[k].right) / (2 * board.corners())));
   }
-  std::vector<double> sorted = rms;
-  std::sort(sorted.begin(), sorted.end());
-  const double median = sorted[sorted.size() / 2];
+  const double median_px = median(std::vector<double>(rms));
   const auto worst = static_cast<std::size_t>(std::max_element(rms.begin(), rms.end()) - rms.begin());
-  if (rms[worst] < std::max(config.min_rejected_rms_px, config.max_view_over_median * median)) return false;
+  if (rms[worst] < std::max(config.min_rejected_rms_px, config.max_view_over_median * median_px))
+    return false;
   views[used[worst]].used = false;
   views[used[worst]].reason = format_text(
       "fits with %.2f px, the median view with %.2f px: the board moved between the eyes' exposures, was "
       "bent, or "
       "a corner was mistaken",
-      rms[worst], median);
+      rms[worst], median_px);
   return true;
 }
 

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <map>
 
+#include "foundation/order_statistics.hpp"
+
 namespace alight::closed_loop {
 namespace {
 
@@ -39,9 +41,8 @@ struct Counts {
   }
   double time_at(double share) const {
     if (time_s.empty()) return 0;
-    std::vector<double> sorted = time_s;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    std::vector<double> values = time_s;
+    return quantile(values, share);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "foundation/order_statistics.hpp"
 #include "geometry/frames.hpp"
 #include "sensors/bag/bag_index.hpp"
 #include "sensors/bag/bag_messages.hpp"
@@ -33,10 +34,10 @@ bool begins_with_header(const std::string& definition) {
 }
 
 StampDelay summarize(std::vector<double> offsets_s) {
-  const auto middle = offsets_s.begin() + static_cast<std::ptrdiff_t>(offsets_s.size() / 2);
-  std::nth_element(offsets_s.begin(), middle, offsets_s.end());
   const auto [min, max] = std::minmax_element(offsets_s.begin(), offsets_s.end());
-  return {*middle, *min, *max};
+  const double min_s = *min;
+  const double max_s = *max;
+  return {median(offsets_s), min_s, max_s};
 }
 
 /// One topic while the bag is read.

@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "foundation/order_statistics.hpp"
 #include "foundation/text_format.hpp"
 #include "pictures/plot_panel.hpp"
 
@@ -51,13 +52,9 @@ class DepthTally {
     const double count = static_cast<double>(covered_.size());
     statistics.coverage = coverage_ / count;
     for (const auto& [t_s, sum] : seen_) statistics.density.emplace_back(t_s, sum / count);
-    std::sort(covered_.begin(), covered_.end());
-    const auto quantile = [&](double share) {
-      return covered_[static_cast<std::size_t>(share * static_cast<double>(covered_.size() - 1))];
-    };
-    statistics.covered_tenth = quantile(0.1);
-    statistics.covered_median = quantile(0.5);
-    statistics.covered_ninetieth = quantile(0.9);
+    statistics.covered_tenth = quantile(covered_, 0.1);
+    statistics.covered_median = quantile(covered_, 0.5);
+    statistics.covered_ninetieth = quantile(covered_, 0.9);
   }
 
  private:

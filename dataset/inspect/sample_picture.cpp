@@ -28,29 +28,6 @@ cv::Mat to_bgr(const cv::Mat& image) {
   return bgr;
 }
 
-struct Range {
-  double min = 0;
-  double max = 1;
-};
-
-/// From the 1st to the 99th percentile, never of zero width.
-Range range_of(std::vector<float> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::size_t cut = values.size() / 100;
-  const double min = values[cut];
-  return {min, std::max<double>(values[values.size() - 1 - cut], min + 0.1)};
-}
-
-std::vector<float> known_values(const cv::Mat& depth_m) {
-  std::vector<float> values;
-  for (int v = 0; v < depth_m.rows; ++v) {
-    std::copy_if(depth_m.ptr<float>(v), depth_m.ptr<float>(v) + depth_m.cols, std::back_inserter(values),
-                 [](float depth) { return depth > 0; });
-  }
-  return values;
-}
-
 cv::Mat over_image(const cv::Mat& image, const cv::Mat& colours, const cv::Mat& known) {
   cv::Mat panel = to_bgr(image) * 0.5;
   colours.copyTo(panel, known);
@@ -90,22 +67,23 @@ std::string text(const char* format, Values... values) {
 
 cv::Mat draw_sample(const Sample& sample, const std::string& title) {
   const cv::Mat known = sample.sparse.depth_m > 0;
-  const Range depth = range_of(known_values(sample.dense_m.empty() ? sample.sparse.depth_m : sample.dense_m));
+  const ColourRange depth = colour_range(sample.dense_m.empty() ? sample.sparse.depth_m : sample.dense_m);
   double min_us = 0;
   double max_us = 0;
   cv::minMaxLoc(sample.sparse.offset_us, &min_us, &max_us);
   const double limit_s = std::max({1e-3, -min_us * 1e-6, max_us * 1e-6});
 
-  const std::string scale = text("%.1f m red .. %.1f m blue", depth.min, depth.max);
+  const std::string scale = text("%.1f m red .. %.1f m blue", depth.min_m, depth.max_m);
   std::vector<cv::Mat> panels = {
       labelled(to_bgr(sample.left), title),
-      labelled(over_image(sample.left, colour_depth(sample.sparse.depth_m, depth.min, depth.max), known),
+      labelled(over_image(sample.left, colour_depth(sample.sparse.depth_m, depth.min_m, depth.max_m), known),
                text("sparse depth, %d pixels, ", cv::countNonZero(known)) + scale),
       labelled(
           over_image(sample.left, colour_offsets(sample.sparse, limit_s), known),
           text("time offset, %.2f s before (blue) .. %.2f s after (red)", -min_us * 1e-6, max_us * 1e-6))};
   if (!sample.dense_m.empty()) {
-    panels.push_back(labelled(colour_depth(sample.dense_m, depth.min, depth.max), "true depth, " + scale));
+    panels.push_back(
+        labelled(colour_depth(sample.dense_m, depth.min_m, depth.max_m), "true depth, " + scale));
   }
   cv::Mat picture;
   cv::hconcat(panels, picture);

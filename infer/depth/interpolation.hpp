@@ -20,9 +20,6 @@ void bind(Binder& b, InterpolationConfig& c);
 cv::Mat interpolate_inside_fov(const cv::Mat& sparse_m, const cv::Mat& fov,
                                const InterpolationConfig& config);
 
-/// The middle of the known depths; `otherwise` where there are none. @param depth_m CV_32FC1, 0 = unknown
-double median_depth_m(const cv::Mat& depth_m, double otherwise);
-
 /// Where the LiDAR's circle lies in the image, at the middle of the depths of its points.
 /// @param sparse_m CV_32FC1 plane depth, 0 = no point @returns CV_8UC1, 255 inside
 cv::Mat lidar_circle(const cv::Mat& sparse_m, const RectifiedRig& rig, double half_fov_deg);

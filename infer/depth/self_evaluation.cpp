@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "foundation/config_reader.hpp"
+#include "foundation/order_statistics.hpp"
 #include "infer/depth/image_ssim.hpp"
 
 namespace alight {
@@ -166,11 +167,6 @@ HoldoutScores compare_with_holdout(const cv::Mat& prediction_m, const cv::Mat& h
   HoldoutScores scores;
   scores.points = static_cast<int>(errors_m.size());
   if (errors_m.empty()) return scores;
-  const auto median = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
   scores.median_m = median(errors_m);
   scores.median_relative = median(relative);
   scores.rms_m = std::sqrt(squares / scores.points);

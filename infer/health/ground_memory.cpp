@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "foundation/order_statistics.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -45,9 +46,7 @@ GroundFit GroundMemory::fit(const std::vector<Eigen::Vector3d>& points) const {
   fit.cells = static_cast<int>(seen.size());
   if (off_m.empty()) return fit;
   fit.misfit_m = mean_off(off_m, 0);
-  const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
-  std::nth_element(off_m.begin(), middle, off_m.end());
-  fit.offset_m = *middle;
+  fit.offset_m = median(off_m);
   fit.shape_misfit_m = mean_off(off_m, fit.offset_m);
   return fit;
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "foundation/order_statistics.hpp"
 #include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 #include "sensors/poses/alignment.hpp"
@@ -16,13 +17,6 @@ constexpr std::size_t kUsualPackets = 20;
 constexpr std::size_t kComparedEchoes = 2000;
 const Eigen::Vector3d kMirrors[] = {{1, -1, 1}, {1, 1, -1}, {1, -1, -1}};  // left-right, front-back, both
 constexpr std::int64_t kNeighbours_ns = 50'000;  // further apart in time is further apart in angle
-
-template <class Value>
-Value middle(std::vector<Value> values) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 }  // namespace
 
@@ -46,7 +40,7 @@ bool LidarWatch::add(const LidarPacket& packet, const Trajectory& trajectory) {
   const bool bad = contradicts_ground(t_ns, packet, trajectory) || is_frozen || is_noisy;
   std::vector<float> ahead_m;
   for (const LidarReturn& echo : packet.returns) ahead_m.push_back(echo.p_lidar.x());
-  distance_m_ = static_cast<double>(middle(ahead_m));
+  distance_m_ = static_cast<double>(median(ahead_m));
   last_ = packet.returns;
   return !bad && usable();
 }
@@ -54,7 +48,7 @@ bool LidarWatch::add(const LidarPacket& packet, const Trajectory& trajectory) {
 void LidarWatch::count_points(std::int64_t t_ns, const LidarPacket& packet) {
   const double count = static_cast<double>(packet.returns.size()) + static_cast<double>(packet.dropped);
   const double usual =
-      point_counts_.empty() ? count : middle(std::vector<double>(point_counts_.begin(), point_counts_.end()));
+      point_counts_.empty() ? count : median(std::vector<double>(point_counts_.begin(), point_counts_.end()));
   const bool few = count < config_.lidar.min_point_share * usual;
   partial_.look(config_, t_ns, few, format_text("%.0f points in a packet, usually %.0f", count, usual));
   // What is too little does not become the usual.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "foundation/order_statistics.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -91,10 +92,7 @@ void StreamWatch::pass(std::int64_t now_ns, std::int64_t begin_ns) {
 
 double StreamWatch::period_s() const {
   if (gaps_ns_.empty()) return 0;
-  std::vector<std::int64_t> gaps_ns(gaps_ns_.begin(), gaps_ns_.end());
-  const auto middle = gaps_ns.begin() + static_cast<std::ptrdiff_t>(gaps_ns.size() / 2);
-  std::nth_element(gaps_ns.begin(), middle, gaps_ns.end());
-  return to_seconds(*middle);
+  return to_seconds(median(std::vector<std::int64_t>(gaps_ns_.begin(), gaps_ns_.end())));
 }
 
 void StreamWatch::report(std::vector<HealthFinding>& findings) const {

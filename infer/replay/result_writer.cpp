@@ -1,6 +1,5 @@
 #include "infer/replay/result_writer.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "foundation/errors.hpp"
+#include "foundation/order_statistics.hpp"
 
 namespace alight {
 namespace {
@@ -71,8 +71,7 @@ std::string format(const char* pattern, Values... values) {
 
 double percentile(std::vector<double> values, double share) {
   const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(index), values.end());
-  return values[index];
+  return value_at_place(values, index);
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -8,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "dataset/build/dataset_builder.hpp"
+#include "foundation/order_statistics.hpp"
 #include "sim/record/simulated_log.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -58,9 +58,7 @@ Agreement agreement(const fs::path& data, const FlightEntry& flight) {
   Agreement result;
   result.pixels = errors_m.size();
   if (errors_m.empty() || smooth == 0) return result;
-  std::nth_element(errors_m.begin(), errors_m.begin() + static_cast<std::ptrdiff_t>(errors_m.size() / 2),
-                   errors_m.end());
-  result.median_error_m = errors_m[errors_m.size() / 2];
+  result.median_error_m = median(errors_m);
   result.share_within_3_cm = static_cast<double>(close) / static_cast<double>(smooth);
   result.share_away_from_edges = static_cast<double>(smooth) / static_cast<double>(errors_m.size());
   return result;

@@ -62,6 +62,19 @@ TEST(DepthMap, EncodingKeepsMillimetresAndSaturates) {
   EXPECT_FLOAT_EQ(back.at<float>(3), 65535.0F / 256);
 }
 
+TEST(DepthMap, MedianAndColoursRangeOverTheKnownDepthsAlone) {
+  cv::Mat depth = cv::Mat::zeros(3, 100, CV_32FC1);
+  EXPECT_FALSE(median_depth_m(depth));
+  EXPECT_EQ(colour_range(depth).max_m, 1);
+  for (int u = 0; u < 100; ++u) depth.at<float>(1, u) = static_cast<float>(100 - u);  // 1 to 100 m
+  EXPECT_EQ(known_depths(depth).size(), 100u);
+  EXPECT_EQ(median_depth_m(depth), 51);
+  EXPECT_EQ(colour_range(depth).min_m, 2);
+  EXPECT_EQ(colour_range(depth).max_m, 99);
+  depth.row(1) = 5;
+  EXPECT_NEAR(colour_range(depth).max_m - colour_range(depth).min_m, 0.1, 1e-12) << "a range of no width";
+}
+
 TEST(DepthMap, ColoursTellNearFromFarAndMissing) {
   cv::Mat depth(1, 3, CV_32FC1);
   depth.at<float>(0) = 0;

@@ -9,24 +9,12 @@
 
 #include "foundation/config_reader.hpp"
 #include "foundation/text_format.hpp"
+#include "geometry/depth_map.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/projection.hpp"
 
 namespace alight {
 namespace {
-
-/// Empty without a depth.
-std::optional<double> median_m(const cv::Mat& depth_m) {
-  std::vector<float> values;
-  for (int v = 0; v < depth_m.rows; ++v) {
-    std::copy_if(depth_m.ptr<float>(v), depth_m.ptr<float>(v) + depth_m.cols, std::back_inserter(values),
-                 [](float depth) { return depth > 0; });
-  }
-  if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
 
 Region band_of(double depth_m) {
   if (depth_m < 10) return Region::kBelow10m;
@@ -129,7 +117,7 @@ SampleRegions::SampleRegions(const cv::Mat& lidar_m, const cv::Mat& dense_m, con
     throw std::invalid_argument("SampleRegions: depth maps must have the rig's size");
   }
   if (!dense_m.empty()) edges_ = near_edges(dense_m, config);
-  const std::optional<double> depth_m = median_m(truth_m_);
+  const std::optional<double> depth_m = median_depth_m(truth_m_);
   if (!depth_m) return;
   band_ = band_of(*depth_m);
   inside_ =

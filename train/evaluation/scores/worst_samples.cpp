@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "foundation/errors.hpp"
+#include "foundation/order_statistics.hpp"
 #include "foundation/text_format.hpp"
 #include "geometry/depth_map.hpp"
 #include "infer/replay/overlay.hpp"
@@ -25,9 +26,7 @@ double percentile(const cv::Mat& map, const cv::Mat& mask, double share) {
     }
   }
   if (values.empty()) return 0;
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return static_cast<double>(values[static_cast<std::size_t>(place)]);
+  return static_cast<double>(quantile(values, share));
 }
 
 /// Values 0..limit as colours from dark to bright; black outside the mask.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "foundation/errors.hpp"
+#include "geometry/depth_map.hpp"
 #include "infer/depth/interpolation.hpp"
 #include "train/data/density_sampling.hpp"
 #include "train/evaluation/methods/baseline_methods.hpp"
@@ -28,7 +29,7 @@ class SampleScoring {
         rig_(rig),
         config_(config),
         truth_m_(dense_truth()),
-        depth_m_(median_depth_m(truth_m_, 0)),
+        depth_m_(median_depth_m(truth_m_).value_or(0)),
         stereo_test_(tensor_to_image(sample_.left),
                      sample_.has_right ? tensor_to_image(sample_.right) : cv::Mat(), rig) {}
 
