@@ -1,12 +1,11 @@
 #include <cstdio>
 #include <optional>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "calibrate/calibrate_commands.hpp"
 #include "calibrate/check/rig_check.hpp"
 #include "foundation/output_folder.hpp"
 #include "foundation/shipped_files.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
@@ -41,9 +40,7 @@ int run_check(const CheckOptions& options) {
   if (report) {
     write_file_atomically(report->partial() / "report.txt", text);
     write_file_atomically(report->partial() / "report.json", rig_check_json(check));
-    const fs::path picture = report->partial() / "edges.png";
-    if (!cv::imwrite(picture.string(), draw_rig_check(flight, check, config)))
-      throw DataError(picture.string() + ": cannot be written");
+    write_picture(report->partial() / "edges.png", draw_rig_check(flight, check, config));
     report->commit();
   }
   return exit_code(check.verdict);

@@ -10,6 +10,7 @@
 #include "calibrate/stereo/stereo_calibration.hpp"
 #include "foundation/new_file.hpp"
 #include "foundation/output_folder.hpp"
+#include "pictures/picture_file.hpp"
 #include "sensors/stream/flight_log.hpp"
 
 namespace alight {
@@ -89,9 +90,7 @@ void write_report(const fs::path& folder, const StereoCalibration& calibration, 
   write_file_atomically(folder / "report.txt", text);
   for (const StereoView& view : calibration.views) {
     if (!view.used) continue;
-    const fs::path path = folder / ("rectified_" + view.name + ".png");
-    if (!cv::imwrite(path.string(), draw_rectified(calibration, view)))
-      throw DataError(path.string() + ": cannot be written");
+    write_picture(folder / ("rectified_" + view.name + ".png"), draw_rectified(calibration, view));
   }
 }
 

@@ -5,8 +5,6 @@
 #include <fstream>
 #include <optional>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "closed_loop/landing/land_config.hpp"
 #include "closed_loop/landing/landing_flight.hpp"
 #include "closed_loop/landing/landing_pictures.hpp"
@@ -15,6 +13,7 @@
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"
 #include "infer/mission/mission_table.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace alight::closed_loop {
 namespace {
@@ -55,11 +54,6 @@ LandConfig resolve(const LandOptions& options) {
   std::string known;
   for (const sim::Look look : sim::all_looks()) known += " " + sim::to_string(look);
   throw ConfigError("--look " + options.look + ": no such look; there are" + known);
-}
-
-void write_picture(const fs::path& path, const cv::Mat& picture) {
-  if (!cv::imwrite(path.string(), picture))
-    throw DataError(path.string() + ": cannot be written; check the free space");
 }
 
 void write_track(const fs::path& path, const FlownLanding& flown) {

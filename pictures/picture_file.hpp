@@ -1,22 +1,17 @@
 #pragma once
 
-#include <string>
+#include <filesystem>
+#include <optional>
 
-#include <opencv2/imgcodecs.hpp>
-
-#include "foundation/errors.hpp"
+#include <opencv2/core.hpp>
 
 namespace alight {
 
-/// Writes an image in the format of the name's ending. @throws DataError naming the path
-inline void write_picture(const std::string& path, const cv::Mat& picture) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (!written) throw DataError(path + ": cannot be written; name a .png in a folder that exists");
-}
+/// Writes an image in the format of the name's ending.
+/// @param picture of a type that the format can hold: 8 bits for all, 16 bits for PNG, float for TIFF
+/// @param png_compression 0 (none, quick) to 9; empty: OpenCV's own choice. Other formats do without.
+/// @throws DataError naming the path, what may be wrong and, where OpenCV has one, its reason
+void write_picture(const std::filesystem::path& path, const cv::Mat& picture,
+                   std::optional<int> png_compression = std::nullopt);
 
 }  // namespace alight

@@ -5,13 +5,12 @@
 
 #include <nlohmann/json.hpp>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"
 #include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace alight {
 namespace {
@@ -186,9 +185,8 @@ void write_lidar_report(const std::filesystem::path& folder, const LidarCalibrat
   write_file_atomically(folder / "report.json", lidar_report_json(calibration));
   for (const SceneResult& scene : calibration.scenes) {
     const std::filesystem::path path = folder / (scene.name + ".png");
-    const cv::Mat picture =
-        draw_scene(scene, board, calibration.rig.cam0, calibration.extrinsics.T_camera_lidar);
-    if (!cv::imwrite(path.string(), picture)) throw DataError(path.string() + ": cannot be written");
+    write_picture(path,
+                  draw_scene(scene, board, calibration.rig.cam0, calibration.extrinsics.T_camera_lidar));
   }
 }
 

@@ -10,7 +10,6 @@
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <spawn.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -20,6 +19,7 @@
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"
+#include "pictures/picture_file.hpp"
 #include "sim/counter_random.hpp"
 
 extern char** environ;
@@ -181,8 +181,7 @@ void CampaignFolder::write_pictures(const FlownLanding& flown, const sim::Surfac
                      cv::Scalar::all(255));
   cv::Mat both;
   cv::hconcat(side(cv::Rect(0, 0, side.cols, std::min(side.rows, top.rows))), top, both);
-  const fs::path path = path_ / "pictures" / (name + ".png");
-  if (!cv::imwrite(path.string(), both)) throw DataError(path.string() + ": cannot be written");
+  write_picture(path_ / "pictures" / (name + ".png"), both);
 }
 
 int run_processes(const std::vector<int>& indices, int jobs,

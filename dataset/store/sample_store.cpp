@@ -12,6 +12,7 @@
 #include "foundation/csv_line.hpp"
 #include "foundation/errors.hpp"
 #include "geometry/depth_map.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
@@ -52,17 +53,6 @@ void expect_size(const cv::Mat& picture, cv::Size size, const fs::path& path) {
   throw DataError(path.string() + ": is " + std::to_string(picture.cols) + "x" +
                   std::to_string(picture.rows) + " pixels, the left image is " + std::to_string(size.width) +
                   "x" + std::to_string(size.height));
-}
-
-void write_picture(const fs::path& path, const cv::Mat& picture, int png_compression) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path.string(), picture, {cv::IMWRITE_PNG_COMPRESSION, png_compression});
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (!written)
-    throw DataError(path.string() + ": cannot be written; check the folder, its rights and the free space");
 }
 
 void append(std::string& line, const char* format, double value) {

@@ -5,29 +5,15 @@
 #include <thread>
 #include <utility>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "foundation/config_reader.hpp"
 #include "foundation/output_folder.hpp"
 #include "foundation/progress_bar.hpp"
 #include "infer/replay/looped_log.hpp"
 #include "infer/replay/overlay.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
-namespace {
-
-void write_picture(const fs::path& path, const cv::Mat& picture) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path.string(), picture);
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (!written) throw DataError(path.string() + ": cannot be written; check the folder and the free space");
-}
-
-}  // namespace
 
 class ReplayResults::Files {
  public:

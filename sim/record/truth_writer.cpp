@@ -5,13 +5,12 @@
 #include <sstream>
 #include <system_error>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"
 #include "geometry/depth_map.hpp"
 #include "geometry/frames.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace alight::sim {
 namespace fs = std::filesystem;
@@ -23,17 +22,6 @@ void create_folder(const fs::path& path) {
   std::error_code code;
   fs::create_directories(path, code);
   if (code) throw DataError(path.string() + ": cannot be created: " + code.message());
-}
-
-void write_png(const fs::path& path, const cv::Mat& image, int level) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path.string(), image, {cv::IMWRITE_PNG_COMPRESSION, level});
-  } catch (const cv::Exception& e) {
-    throw DataError(path.string() + ": cannot be written: " + e.what());
-  }
-  if (!written)
-    throw DataError(path.string() + ": cannot be written; check the folder, its rights and the free space");
 }
 
 std::string indented(const std::string& text) {
@@ -52,8 +40,8 @@ TruthWriter::TruthWriter(const fs::path& folder, int png_level) : folder_(folder
 
 void TruthWriter::write_frame(std::int64_t stamp_ns, const cv::Mat& depth_m, const cv::Mat& safe) const {
   const std::string name = std::to_string(stamp_ns) + ".png";
-  write_png(folder_ / "depth" / name, encode_depth(depth_m), png_level_);
-  write_png(folder_ / "safe" / name, safe, png_level_);
+  write_picture(folder_ / "depth" / name, encode_depth(depth_m), png_level_);
+  write_picture(folder_ / "safe" / name, safe, png_level_);
 }
 
 void TruthWriter::write_trajectory(const SimulatedFlight& flight, double rate_hz,

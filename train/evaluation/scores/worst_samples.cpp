@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "foundation/errors.hpp"
 #include "foundation/order_statistics.hpp"
 #include "foundation/text_format.hpp"
 #include "geometry/depth_map.hpp"
 #include "infer/replay/overlay.hpp"
+#include "pictures/picture_file.hpp"
 
 namespace alight {
 namespace {
@@ -99,10 +98,7 @@ void write_worst_samples(const EvaluationReport& report, const DepthMethod& firs
   for (std::size_t i = 0; i < worst.size(); ++i) {
     const std::string file =
         format_text("%02zu_%s_%zu.png", i + 1, worst[i].item.flight.c_str(), worst[i].item.index);
-    const cv::Mat picture = draw_errors(picture_of(worst[i], first_method, source, config, *feeding));
-    if (!cv::imwrite((dir / file).string(), picture)) {
-      throw DataError((dir / file).string() + ": cannot be written; check the free space");
-    }
+    write_picture(dir / file, draw_errors(picture_of(worst[i], first_method, source, config, *feeding)));
   }
 }
 
