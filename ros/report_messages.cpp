@@ -7,6 +7,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/frames.hpp"
+
 namespace alight {
 namespace {
 
@@ -197,7 +199,7 @@ visualization_msgs::Marker landing_site_marker(const FrameReport& frame, const F
   marker.color.g = 1.0f;
   marker.color.a = 1.0f;
   for (int i = 0; i <= kCircleCorners; ++i) {
-    const double angle_rad = 2 * M_PI * i / kCircleCorners;
+    const double angle_rad = 2 * kPi * i / kCircleCorners;
     marker.points.push_back(
         point(site.circle.radius_m * Eigen::Vector3d(std::cos(angle_rad), std::sin(angle_rad), 0)));
   }

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/frames.hpp"
+
 namespace alight::sim {
 
 /// A full turn, in radians.
-inline constexpr double kTwoPi = 6.283185307179586;
+inline constexpr double kTwoPi = 2 * kPi;
 
 /// Bits that look random in all positions (Wellons' "lowbias32" mixer).
 constexpr std::uint32_t mix_bits(std::uint32_t x) {

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "foundation/config_reader.hpp"
+#include "geometry/frames.hpp"
 
 namespace alight {
 namespace {
 
 double cosine(const ScheduleConfig& config, std::int64_t step, std::int64_t total_steps) {
-  constexpr double kPi = 3.14159265358979323846;
   const double length = static_cast<double>(std::max<std::int64_t>(total_steps - config.warmup_steps, 1));
   const double share = std::clamp(static_cast<double>(step - config.warmup_steps) / length, 0.0, 1.0);
   return config.final_factor + (1 - config.final_factor) * 0.5 * (1 + std::cos(kPi * share));

@@ -9,6 +9,7 @@
 
 #include "calibrate/fitting/opencv_pose.hpp"
 #include "foundation/errors.hpp"
+#include "geometry/frames.hpp"
 
 namespace alight {
 namespace {
@@ -42,7 +43,7 @@ std::vector<Vector3d> fisheye_rays(const Corners& corners, const PinholeIntrinsi
     const Vector2d off((static_cast<double>(corner.x) - intrinsics.cx_px) / intrinsics.fx_px,
                        (static_cast<double>(corner.y) - intrinsics.cy_px) / intrinsics.fy_px);
     const double theta = off.norm();
-    if (theta >= M_PI / 2) return {};
+    if (theta >= kPi / 2) return {};
     const Vector2d side = theta < 1e-9 ? off : Vector2d(off * (std::sin(theta) / theta));
     rays.emplace_back(side.x(), side.y(), std::cos(theta));
   }
@@ -85,7 +86,7 @@ double squared_angles(const Chessboard& board, const std::vector<Vector3d>& rays
 /// follows. cv::fisheye::calibrate is not used: its undamped steps diverge on one good set in eight.
 Eye start_fisheye(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size) {
   const double right_angle_px =
-      0.5 * std::hypot(size.width, size.height) / (M_PI / 2);  // to the image's corner
+      0.5 * std::hypot(size.width, size.height) / (kPi / 2);  // to the image's corner
   Eye best;
   double best_px2 = std::numeric_limits<double>::infinity();
   for (double f_px = right_angle_px / 2; f_px < 20 * right_angle_px; f_px *= 1.1) {

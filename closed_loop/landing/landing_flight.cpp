@@ -24,7 +24,6 @@ constexpr double kEnoughAfterCritical_s = 90;  // of the longest flight: the way
 double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double landing_start_yaw(std::int64_t seed) {
-  constexpr double kPi = 3.14159265358979323846;
   return sim::CounterRandom(static_cast<std::uint64_t>(seed), sim::RandomStream::kLandingStart)
       .uniform(0, -kPi, kPi);
 }
@@ -224,7 +223,7 @@ void LandingFlight::Impl::look_for_collisions() {
   constexpr int kPoints = 192;  // 2.8 cm apart
   std::vector<Eigen::Vector3d> rim(kPoints);
   for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2 * 3.14159265358979323846 * i / kPoints;
+    const double angle = 2 * kPi * i / kPoints;
     rim[static_cast<std::size_t>(i)] =
         vehicle_.p_world() +
         config_.flight.body_radius_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);

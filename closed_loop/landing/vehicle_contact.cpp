@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/frames.hpp"
+
 namespace alight::closed_loop {
 
 double highest_m(const sim::SurfaceTruth& truth, const Eigen::Vector2d& middle, double radius_m) {
@@ -24,7 +26,7 @@ bool reached_from_below(const sim::Renderer& renderer, const Eigen::Vector3d& p_
   constexpr int kRays = 16;
   std::vector<Eigen::Vector3d> from;
   for (int i = 0; i < kRays; ++i) {
-    const double angle = 2 * 3.14159265358979323846 * i / kRays;
+    const double angle = 2 * kPi * i / kRays;
     from.push_back(p_world +
                    radius_m * (i % 2 == 0 ? 1 : 0.5) * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0));
   }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/frames.hpp"
+
 namespace alight {
 namespace {
 
@@ -27,7 +29,7 @@ double angle_at(double pitch_m, double way_m) {
 }  // namespace
 
 WanderPath::WanderPath(double radius_m, double spacing_m)
-    : radius_m_(radius_m), pitch_m_(spacing_m / (2 * 3.14159265358979323846)) {
+    : radius_m_(radius_m), pitch_m_(spacing_m / (2 * kPi)) {
   if (!(radius_m > 0) || !(spacing_m > 0)) {
     throw std::invalid_argument("WanderPath: radius and spacing must be positive");
   }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/frames.hpp"
+
 namespace alight {
 namespace {
 
@@ -77,7 +79,7 @@ TEST(Camera, EquidistantFollowsKannalaBrandt) {
 TEST(Camera, EquidistantWithoutCoefficientsIsNoPinhole) {
   const Camera camera = make_camera(DistortionModel::kEquidistant, {0, 0, 0, 0});
   const auto pixel = camera.project({1, 0, 1});
-  EXPECT_NEAR(pixel->x(), 450 * M_PI / 4 + 321.2, 1e-9);
+  EXPECT_NEAR(pixel->x(), 450 * kPi / 4 + 321.2, 1e-9);
   EXPECT_NEAR(camera.unproject(*pixel).x(), 1, 1e-9);
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/frames.hpp"
+
 namespace alight {
 namespace {
 
@@ -18,11 +20,11 @@ TEST(LocalEnu, AxesAreEastNorthUp) {
 TEST(LocalEnu, MetresPerDegreeFollowTheEllipsoid) {
   // Meridian radius of curvature of WGS84 at the origin: M = a (1 - e^2) / (1 - e^2 sin^2)^1.5
   const double a = 6378137.0, f = 1 / 298.257223563, e2 = f * (2 - f);
-  const double lat = 48.0 * M_PI / 180, s2 = std::sin(lat) * std::sin(lat);
+  const double lat = to_radians(48.0), s2 = std::sin(lat) * std::sin(lat);
   const double M = a * (1 - e2) / std::pow(1 - e2 * s2, 1.5);
   const double step_deg = 1e-4;
   const LocalEnu enu(48.0, 11.0, 0);
-  EXPECT_NEAR(enu.to_world(48.0 + step_deg, 11.0, 0).y(), M * step_deg * M_PI / 180, 1e-4);
+  EXPECT_NEAR(enu.to_world(48.0 + step_deg, 11.0, 0).y(), M * to_radians(step_deg), 1e-4);
 }
 
 TEST(LocalEnu, RoundTrip) {

@@ -59,7 +59,7 @@ TEST(ProjectPoints, LeavesOutWhatIsBehindBesideOrBeyond) {
 TEST(ProjectPoints, UsesThePose) {
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();
   T_camera_world.linear() =
-      Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();  // looks down
+      Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()).toRotationMatrix();  // looks down
   T_camera_world.translation() = T_camera_world.linear() * -Eigen::Vector3d(5, 6, 20);
   SparseDepth out = SparseDepth::empty(kSquareCamera.size());
   project_points({at(6, 6, 2)}, T_camera_world, kSquareCamera, 0, {}, out);
@@ -75,7 +75,7 @@ TEST(LidarFovMask, CircleOfTheLivoxIs306PixelsWide) {
   EXPECT_NEAR(width, 2 * 440 * std::tan(to_radians(19.174)), 2);
   EXPECT_EQ(mask.at<std::uint8_t>(0, 0), 0);
   const double radius = 440 * std::tan(to_radians(19.174));
-  EXPECT_NEAR(cv::countNonZero(mask), M_PI * radius * radius, 700);
+  EXPECT_NEAR(cv::countNonZero(mask), kPi * radius * radius, 700);
 }
 
 }  // namespace

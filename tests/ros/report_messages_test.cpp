@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "geometry/frames.hpp"
+
 namespace alight {
 namespace {
 
@@ -101,7 +103,7 @@ TEST(ReportMessagesTest, TheMarkerIsACircleOfTheSitesRadius) {
 TEST(ReportMessagesTest, TheLevelCameraIsAChildOfTheCamera) {
   FrameReport frame = small_frame();
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-  T_world_camera.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  T_world_camera.linear() = Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()).toRotationMatrix();
   T_world_camera.translation() = Eigen::Vector3d(1, 2, 30);
   frame.depth.T_world_camera = T_world_camera;
   frame.selection = SiteSelection{};

@@ -136,7 +136,7 @@ TEST(RigForms, ReadingOptionsAreKeptByTheRoundTrip) {
   EXPECT_EQ(points.stamp_at, PointTiming::StampAt::kEnd);
   EXPECT_EQ(points.scan_period_s, 0.1);
   EXPECT_EQ(points.spread, PointTiming::Spread::kClockwise);
-  EXPECT_NEAR(points.scan_start_rad, M_PI, 1e-12);
+  EXPECT_NEAR(points.scan_start_rad, kPi, 1e-12);
   EXPECT_EQ(rig.lidar0->reflectivity_scale, 255);
   EXPECT_EQ(format_rig(parse_rig(format_rig(rig), "again")), format_rig(rig));
   EXPECT_THAT(error_of(kLens + std::string("  stamp: sometimes\n")), HasSubstr("header | receive"));

@@ -62,7 +62,7 @@ std::vector<std::vector<double>> scan(double begin_s, const Eigen::Isometry3d& T
   for (int column = 0; column < kColumns; ++column) {
     const double share = (column + 0.5) / kColumns;
     const Eigen::Isometry3d T_world_lidar = T_world_imu(begin_s + share * kPeriod_s) * T_imu_lidar;
-    const double azimuth_rad = M_PI - 2 * M_PI * share;
+    const double azimuth_rad = kPi - 2 * kPi * share;
     for (int ring = 0; ring < kRings; ++ring) {
       const double elevation_rad = to_radians(2 - ring);
       const Eigen::Vector3d ray(std::cos(elevation_rad) * std::cos(azimuth_rad),
@@ -168,7 +168,7 @@ PointTiming by_azimuth() {
   PointTiming timing;
   timing.scan_period_s = kPeriod_s;
   timing.spread = PointTiming::Spread::kClockwise;
-  timing.scan_start_rad = M_PI;
+  timing.scan_start_rad = kPi;
   return timing;
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
 #include "tests/sim/test_worlds.hpp"
 
@@ -80,7 +81,7 @@ TEST(Renderer, SkyHasNoDepth) {
   const World world = World::from_meshes({plane(100, 0, 0, 0)}, {surface_of(Material::kGrass)}, 60);
   const Renderer renderer(world);
   Eigen::Isometry3d up = camera_above(0, 0, 10);
-  up.rotate(Eigen::AngleAxisd(3.14159265, Eigen::Vector3d::UnitX()));
+  up.rotate(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()));
   const View view = renderer.render_camera(intrinsics(), up, true);
   EXPECT_EQ(cv::countNonZero(view.depth_m), 0);
   EXPECT_FALSE(renderer.cast({0, 0, 10}, {0, 0, 1}).hit);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/frames.hpp"
 #include "tests/train/evaluation/evaluation_scenes.hpp"
 
 namespace alight {
@@ -44,8 +45,8 @@ TEST(NearEdges, BothThresholdsMustBeExceeded) {
 TEST(SampleRegions, FovIsTheCircleAroundTheBoresight) {
   const SampleRegions regions(level_m(15), level_m(15), test::scene_rig(), {});
   const auto inside = regions.pixels(Region::kInsideFov, level_m(0));
-  const double radius_px = 40 * std::tan(19.174 * 3.14159265358979 / 180);
-  EXPECT_NEAR(count(inside), 3.14159 * radius_px * radius_px, 20);
+  const double radius_px = 40 * std::tan(to_radians(19.174));
+  EXPECT_NEAR(count(inside), kPi * radius_px * radius_px, 20);
   EXPECT_NE(inside->mask.at<std::uint8_t>(24, 24), 0);
   EXPECT_EQ(count(inside) + count(regions.pixels(Region::kOutsideFov, level_m(0))), 48 * 48);
 }
