@@ -8,6 +8,7 @@
 #include "closed_loop/campaign/campaign_report.hpp"
 #include "closed_loop/landing/land_config.hpp"
 #include "closed_loop/landing/network_choice.hpp"
+#include "foundation/child_processes.hpp"
 #include "foundation/command_line.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"
@@ -83,16 +84,16 @@ int run(CampaignOptions options) {
   int failed = 0;
   {
     ProgressBar progress("landings", static_cast<std::int64_t>(missing.size()), "landings");
-    failed = run_processes(
-        missing, options.jobs,
-        [&](int index) {
+    failed = run_programs(
+        missing.size(), options.jobs,
+        [&](std::size_t i) {
           return std::vector<std::string>{program,
                                           "--quiet",
                                           "campaign",
                                           "--output",
                                           options.output.string(),
                                           "--one",
-                                          std::to_string(index)};
+                                          std::to_string(missing[i])};
         },
         [&] { progress.advance(); });
   }

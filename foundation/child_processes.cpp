@@ -1,5 +1,6 @@
 #include "foundation/child_processes.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -8,8 +9,11 @@
 #include <list>
 #include <optional>
 #include <sstream>
+#include <thread>
 
 #include <poll.h>
+#include <spawn.h>
+#include <spdlog/spdlog.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,12 +22,15 @@
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
 
+extern char** environ;
+
 namespace alight {
 namespace {
 
 using Time = std::chrono::steady_clock::time_point;
 
 constexpr int kPollMs = 50;
+constexpr std::chrono::milliseconds kLookAgain{20};  // at programs, which take seconds
 
 /// What a child says through its pipe: one line each, a letter and its text.
 constexpr char kProgressLine = 'p';
@@ -227,6 +234,44 @@ std::vector<ChildOutcome> run_in_children(const std::vector<ChildBody>& bodies, 
     }
   }
   return outcomes;
+}
+
+int run_programs(std::size_t count, int at_once,
+                 const std::function<std::vector<std::string>(std::size_t)>& command,
+                 const std::function<void()>& finished) {
+  const EndedChildrenAreKept kept;
+  int failed = 0;
+  std::vector<pid_t> running;
+  const auto wait_for_fewer_than = [&](std::size_t fewer) {
+    while (running.size() >= fewer) {
+      const auto ended = std::remove_if(running.begin(), running.end(), [&](pid_t child) {
+        const ChildState state = look_at_child(child);
+        if (!state.ended) return false;
+        failed += state.succeeded() ? 0 : 1;
+        finished();
+        return true;
+      });
+      if (ended == running.end()) std::this_thread::sleep_for(kLookAgain);
+      running.erase(ended, running.end());
+    }
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    wait_for_fewer_than(static_cast<std::size_t>(at_once));
+    const std::vector<std::string> words = command(i);
+    std::vector<char*> argv;
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    if (const int error = posix_spawn(&child, argv.front(), nullptr, nullptr, argv.data(), environ);
+        error != 0) {
+      spdlog::error("{}: cannot be started: {}", words.front(), std::strerror(error));
+      ++failed;
+      continue;
+    }
+    running.push_back(child);
+  }
+  wait_for_fewer_than(1);
+  return failed;
 }
 
 }  // namespace alight

@@ -2,34 +2,27 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <fstream>
-#include <thread>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <spawn.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "closed_loop/landing/landing_pictures.hpp"
-#include "foundation/child_exit.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/output_folder.hpp"
 #include "pictures/picture_file.hpp"
 #include "sim/counter_random.hpp"
 
-extern char** environ;
-
 namespace alight::closed_loop {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kNoFault = "none";
-constexpr std::chrono::milliseconds kLookAgain{20};  // a landing takes seconds
 
 sim::Look look_of(const std::string& name) {
   for (const sim::Look look : sim::all_looks()) {
@@ -182,44 +175,6 @@ void CampaignFolder::write_pictures(const FlownLanding& flown, const sim::Surfac
   cv::Mat both;
   cv::hconcat(side(cv::Rect(0, 0, side.cols, std::min(side.rows, top.rows))), top, both);
   write_picture(path_ / "pictures" / (name + ".png"), both);
-}
-
-int run_processes(const std::vector<int>& indices, int jobs,
-                  const std::function<std::vector<std::string>(int index)>& command,
-                  const std::function<void()>& finished) {
-  const EndedChildrenAreKept kept;
-  int failed = 0;
-  std::vector<pid_t> running;
-  const auto wait_for_fewer_than = [&](std::size_t count) {
-    while (running.size() >= count) {
-      const auto ended = std::remove_if(running.begin(), running.end(), [&](pid_t child) {
-        const ChildState state = look_at_child(child);
-        if (!state.ended) return false;
-        failed += state.succeeded() ? 0 : 1;
-        finished();
-        return true;
-      });
-      if (ended == running.end()) std::this_thread::sleep_for(kLookAgain);
-      running.erase(ended, running.end());
-    }
-  };
-  for (const int index : indices) {
-    wait_for_fewer_than(static_cast<std::size_t>(jobs));
-    const std::vector<std::string> words = command(index);
-    std::vector<char*> argv;
-    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    pid_t child = 0;
-    if (const int error = posix_spawn(&child, argv.front(), nullptr, nullptr, argv.data(), environ);
-        error != 0) {
-      spdlog::error("landing {}: cannot be started: {}", index, std::strerror(error));
-      ++failed;
-      continue;
-    }
-    running.push_back(child);
-  }
-  wait_for_fewer_than(1);
-  return failed;
 }
 
 }  // namespace alight::closed_loop

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -61,12 +60,5 @@ class CampaignFolder {
   std::filesystem::path path_;
   CampaignPlan plan_;
 };
-
-/// Runs `command(index)` for every index in processes of their own, `jobs` at a time.
-/// @param finished is told after every landing  @returns how many processes failed, or ended unseen because somebody
-/// else waited for them
-int run_processes(const std::vector<int>& indices, int jobs,
-                  const std::function<std::vector<std::string>(int index)>& command,
-                  const std::function<void()>& finished);
 
 }  // namespace alight::closed_loop

@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -6,13 +5,12 @@
 #include "dataset/build/dataset_builder.hpp"
 #include "foundation/config_reader.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/programs.hpp"
 
 namespace alight::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-int run(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()); }
 
 /// The example script for clusters, with what Slurm sets in an array's tasks.
 TEST(DatasetArray, ShardsOfAnArrayAndTheirMergeEqualOneBuild) {
@@ -37,14 +35,15 @@ TEST(DatasetArray, ShardsOfAnArrayAndTheirMergeEqualOneBuild) {
   const std::string script = ALIGHT_SOURCE_DIR "/scripts/cluster/dataset_array.sh ";
   const std::string output = (dir / "all").string();
   const auto task = [&](int index, int count) {
-    return run("SLURM_ARRAY_TASK_ID=" + std::to_string(index) +
-               " SLURM_ARRAY_TASK_COUNT=" + std::to_string(count) + " " + program + script + "build " +
-               (dir / "config.yaml").string() + " " + output + logs);
+    return test::run_command("SLURM_ARRAY_TASK_ID=" + std::to_string(index) +
+                             " SLURM_ARRAY_TASK_COUNT=" + std::to_string(count) + " " + program + script +
+                             "build " + (dir / "config.yaml").string() + " " + output + logs)
+        .exit_code;
   };
   EXPECT_EQ(task(1, 2), 0);
   EXPECT_EQ(task(2, 2), 0);
   EXPECT_EQ(task(7, 8), 0);  // more tasks than logs: nothing to do
-  ASSERT_EQ(run(program + script + "merge " + output), 0);
+  ASSERT_EQ(test::run_command(program + script + "merge " + output).exit_code, 0);
 
   std::map<std::string, int> merged;
   for (const FlightEntry& flight : read_dataset_info(output).flights) merged[flight.name] = flight.samples;

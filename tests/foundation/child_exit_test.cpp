@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/programs.hpp"
+
 namespace alight {
 namespace {
 
 pid_t child_that_exits(int code) {
-  const pid_t child = fork();
-  if (child == 0) _exit(code);
-  return child;
+  return test::start_copy([&] { return code; });
 }
 
 /// Ends when the other end of the pipe is closed.
@@ -19,11 +19,11 @@ class WaitingChild {
  public:
   WaitingChild() {
     EXPECT_EQ(pipe(ends_), 0);
-    pid_ = fork();
-    if (pid_ != 0) return;
-    close(ends_[1]);
-    char byte = 0;
-    _exit(read(ends_[0], &byte, 1) == 0 ? 0 : 1);
+    pid_ = test::start_copy([&] {
+      close(ends_[1]);
+      char byte = 0;
+      return read(ends_[0], &byte, 1) == 0 ? 0 : 1;
+    });
   }
   pid_t pid() const { return pid_; }
   void let_go() const {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -164,6 +165,59 @@ TEST(ChildProcesses, AnEndThatSomebodyElseTookIsNoHang) {
     if (share > 0 && share < 1) waitpid(-1, nullptr, 0);
   };
   EXPECT_THAT(run_in_children({body}, 1, {}, take).at(0).error, HasSubstr("exit code is lost"));
+}
+
+/// Four programs, each of which leaves a mark; the third fails.
+class ChildPrograms : public ::testing::Test {
+ protected:
+  ~ChildPrograms() override { std::signal(SIGCHLD, SIG_DFL); }
+
+  /// @returns how many failed
+  int run(int jobs = 2, const std::function<void()>& before_each = [] {}) {
+    return run_programs(
+        4, jobs,
+        [&](std::size_t index) {
+          before_each();
+          const std::string mark = (folder_ / std::to_string(index)).string();
+          return std::vector<std::string>{"/bin/sh", "-c",
+                                          "echo x >> " + mark + "; exit " + (index == 2 ? "1" : "0")};
+        },
+        [&] { ++finished_; });
+  }
+  void expect_each_ran_once() const {
+    EXPECT_EQ(finished_, 4);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(std::filesystem::file_size(folder_ / std::to_string(i)), 2u) << i;
+  }
+
+  const test::ScratchFolder folder_;
+  int finished_ = 0;
+};
+
+TEST_F(ChildPrograms, RunOnceEachAndFailuresAreCounted) {
+  EXPECT_EQ(run(), 1);
+  expect_each_ran_once();
+}
+
+TEST_F(ChildPrograms, AreCountedThoughWhoeverStartedUsIgnoresTheEndsOfChildren) {
+  std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(run(), 1);
+  expect_each_ran_once();
+}
+
+TEST_F(ChildPrograms, WhoseEndSomebodyElseTookCountAsFailed) {
+  int taken = 0;
+  const int failed = run(4, [&] {
+    while (waitpid(-1, nullptr, 0) > 0) ++taken;
+  });
+  EXPECT_EQ(taken, 3) << "all but the last";
+  EXPECT_EQ(failed, 3);
+  expect_each_ran_once();
+}
+
+TEST_F(ChildPrograms, ThatCannotBeStartedCountAsFailed) {
+  const auto command = [](std::size_t) { return std::vector<std::string>{"/no/such/program"}; };
+  EXPECT_EQ(run_programs(2, 1, command, [&] { ++finished_; }), 2);
+  EXPECT_EQ(finished_, 0);
 }
 
 }  // namespace

@@ -2,35 +2,14 @@
 
 #include <chrono>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include <ros/callback_queue.h>
 #include <ros/init.h>
-#include <sys/types.h>
 
+#include "tests/support/programs.hpp"
 #include "tests/support/reserved_port.hpp"
 
 namespace alight::test {
-
-/// A program in a process group of its own, ended with this object. What it says goes to a file.
-class Program {
- public:
-  Program(const std::vector<std::string>& command, std::filesystem::path log);
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-  ~Program();
-
-  bool running();
-  /// Waits for the end. @returns the exit code, -1 if it had to be killed after `timeout_s`
-  int wait(double timeout_s);
-  std::string said() const;
-
- private:
-  pid_t pid_ = -1;
-  int exit_code_ = -1;
-  std::filesystem::path log_;
-};
 
 /// Whether a ROS master and rosbag's player are installed.
 bool ros_is_installed();

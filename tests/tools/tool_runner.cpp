@@ -1,10 +1,6 @@
 #include "tests/tools/tool_runner.hpp"
 
-#include <array>
-#include <cstdio>
 #include <stdexcept>
-
-#include <sys/wait.h>
 
 #include <gtest/gtest.h>
 
@@ -14,16 +10,7 @@ namespace alight::test {
 namespace fs = std::filesystem;
 
 ToolRun run_tool(const std::string& command_line) {
-  const std::string command =
-      "cd " ALIGHT_SOURCE_DIR " && " ALIGHT_BINARY_DIR "/bin/" + command_line + " 2>&1 < /dev/null";
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("popen failed");
-  ToolRun run;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) run.out.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return run;
+  return run_command("cd " ALIGHT_SOURCE_DIR " && " ALIGHT_BINARY_DIR "/bin/" + command_line);
 }
 
 namespace {

@@ -3,13 +3,11 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/programs.hpp"
+
 namespace alight::test {
 
-/// What a tool said.
-struct ToolRun {
-  int exit_code = -1;
-  std::string out;  ///< stdout and stderr
-};
+using ToolRun = CommandRun;
 
 /// Runs `build/bin/<command line>` in the source folder, as the README's examples are run.
 ToolRun run_tool(const std::string& command_line);

@@ -1,17 +1,14 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <thread>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/programs.hpp"
 #include "tests/tools/tool_runner.hpp"
 
 /// alight-train as a user runs it, kills it and goes on with it.
@@ -68,13 +65,8 @@ TEST(Train, LeavesAllThatARunIsKnownBy) {
 /// Starts the tool and kills it with SIGKILL, as a power cut would, once the run's metrics have so many rows.
 /// @returns whether it was still running
 bool start_and_kill(const std::string& command_line, const fs::path& run, std::ptrdiff_t rows) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string line = "exec " ALIGHT_BINARY_DIR "/bin/" + command_line + " >/dev/null 2>&1";
-    if (chdir(ALIGHT_SOURCE_DIR) != 0) _exit(126);
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
+  Program tool(shell_command("cd " ALIGHT_SOURCE_DIR " && exec " ALIGHT_BINARY_DIR "/bin/" + command_line),
+               "/dev/null");
   const auto begin = std::chrono::steady_clock::now();
   const auto metrics_rows = [&] {
     const std::string metrics = file_text(run / "metrics.csv");
@@ -82,10 +74,8 @@ bool start_and_kill(const std::string& command_line, const fs::path& run, std::p
   };
   while (metrics_rows() < rows && std::chrono::steady_clock::now() - begin < std::chrono::minutes(5))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  kill(child, SIGKILL);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFSIGNALED(status);
+  tool.send(SIGKILL);
+  return tool.wait(60) == 128 + SIGKILL;
 }
 
 TEST(Train, RunThatIsKilledAndResumedEqualsTheUninterruptedOne) {

@@ -1,10 +1,7 @@
 #include "closed_loop/campaign/campaign.hpp"
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
-
-#include <sys/wait.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -139,53 +136,6 @@ TEST_F(CampaignTest, ADamagedRowIsNamed) {
   } catch (const DataError& e) {
     EXPECT_THAT(e.what(), HasSubstr("rows.jsonl:2"));
   }
-}
-
-/// Four processes, each of which leaves a mark; the third fails.
-class CampaignProcesses : public CampaignTest {
- protected:
-  CampaignProcesses() { fs::create_directories(path_); }
-  ~CampaignProcesses() override { std::signal(SIGCHLD, SIG_DFL); }
-
-  /// @returns how many failed
-  int run(int jobs = 2, const std::function<void()>& before_each = [] {}) {
-    return run_processes(
-        {0, 1, 2, 3}, jobs,
-        [&](int index) {
-          before_each();
-          const std::string mark = (path_ / std::to_string(index)).string();
-          return std::vector<std::string>{"/bin/sh", "-c",
-                                          "echo x >> " + mark + "; exit " + (index == 2 ? "1" : "0")};
-        },
-        [&] { ++finished_; });
-  }
-  void expect_each_ran_once() const {
-    EXPECT_EQ(finished_, 4);
-    for (int i = 0; i < 4; ++i) EXPECT_EQ(fs::file_size(path_ / std::to_string(i)), 2u) << i;
-  }
-
-  int finished_ = 0;
-};
-
-TEST_F(CampaignProcesses, RunOnceEachAndFailuresAreCounted) {
-  EXPECT_EQ(run(), 1);
-  expect_each_ran_once();
-}
-
-TEST_F(CampaignProcesses, AreCountedThoughWhoeverStartedUsIgnoresTheEndsOfChildren) {
-  std::signal(SIGCHLD, SIG_IGN);
-  EXPECT_EQ(run(), 1);
-  expect_each_ran_once();
-}
-
-TEST_F(CampaignProcesses, WhoseEndSomebodyElseTookCountAsFailed) {
-  int taken = 0;
-  const int failed = run(4, [&] {
-    while (waitpid(-1, nullptr, 0) > 0) ++taken;
-  });
-  EXPECT_EQ(taken, 3) << "all but the last";
-  EXPECT_EQ(failed, 3);
-  expect_each_ran_once();
 }
 
 TEST_F(CampaignTest, TheReportCountsWhatTheRowsSay) {

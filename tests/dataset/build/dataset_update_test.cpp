@@ -9,8 +9,10 @@
 
 #include "dataset/build/dataset_builder.hpp"
 #include "dataset/build/dataset_merge.hpp"
+#include "foundation/child_exit.hpp"
 #include "foundation/errors.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/programs.hpp"
 
 namespace alight::testing {
 namespace {
@@ -132,19 +134,17 @@ TEST_F(DatasetUpdate, WhereNoLogCanBeReadNothingIsMade) {
 }
 
 TEST_F(DatasetUpdate, ABuildThatWasKilledGoesOnWhereItWas) {
-  const pid_t child = fork();
-  if (child == 0) {
+  const pid_t child = test::start_copy([&] {
     BuildOptions options;
     options.at_once = 1;
     options.progress = [](std::int64_t done, std::int64_t total) {
       if (done > total / 2) raise(SIGKILL);
     };
     build_dataset(config_, small_rig(), {log("a"), log("b"), log("c")}, data_, options);
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFSIGNALED(status));
+    return 0;
+  });
+  const ChildState end = wait_for_child(child);
+  ASSERT_TRUE(end.status && WIFSIGNALED(*end.status));
   ASSERT_TRUE(fs::exists(folder_.path() / "data.partial" / "a" / "build.yaml"));
   const BuildResult result = build({log("a"), log("b"), log("c")});
   EXPECT_THAT(result.kept, ::testing::Contains("a"));

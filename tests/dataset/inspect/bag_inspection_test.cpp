@@ -1,7 +1,5 @@
 #include "dataset/inspect/bag_inspection.hpp"
 
-#include <array>
-#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -14,6 +12,7 @@
 #include "foundation/errors.hpp"
 #include "tests/sensors/messages/cloud_message.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/programs.hpp"
 
 namespace alight::testing {
 namespace {
@@ -193,13 +192,7 @@ std::map<std::string, TopicCount> counts_of_python(const fs::path& path) {
       "for name, t in bag.get_type_and_topic_info()[1].items():\n"
       "  print(name, t.msg_type, t.message_count)\" '" +
       path.string() + "' 2>/dev/null";
-  std::string output;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> buffer;
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    output.append(buffer.data(), count);
-  pclose(pipe);
-  std::istringstream lines(output);
+  std::istringstream lines(test::run_command(command).out);
   std::map<std::string, TopicCount> counts;
   std::string name;
   TopicCount count;
@@ -208,8 +201,7 @@ std::map<std::string, TopicCount> counts_of_python(const fs::path& path) {
 }
 
 TEST_F(RealBagInspection, CountsAreThoseOfRosbagsPythonModule) {
-  if (std::system("/usr/bin/python3 -c 'import rosbag' 2>/dev/null") != 0)
-    GTEST_SKIP() << "python3-rosbag is not installed";
+  if (!test::python_has("rosbag")) GTEST_SKIP() << "python3-rosbag is not installed";
   int compared = 0;
   for (const fs::path& path : bags()) {
     BagReport report;

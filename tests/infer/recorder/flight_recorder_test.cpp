@@ -4,12 +4,13 @@
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "foundation/child_exit.hpp"
 #include "tests/infer/recorder/recorded_flight.hpp"
+#include "tests/support/programs.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight {
@@ -64,19 +65,16 @@ TEST_F(Recorder, KeepsPicturesNowAndThenAndAtChanges) {
 }
 
 TEST_F(Recorder, AFullDiskCostsRecordsAndNoFlight) {
-  const pid_t child = fork();
-  if (child == 0) {
+  const pid_t child = test::start_copy([&] {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{20000, 20000};
     setrlimit(RLIMIT_FSIZE, &limit);
     RecorderConfig config;
     config.max_waiting = 1000;
     fakes::record_flight(folder_, config, 1e9);
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
+    return 0;
+  });
+  EXPECT_TRUE(wait_for_child(child).succeeded());
   const SegmentLogContents contents = read_segments(folder_);
   EXPECT_TRUE(contents.damages.empty());
   EXPECT_GT(contents.records.size(), 3U);

@@ -6,12 +6,13 @@
 #include <fstream>
 
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "foundation/child_exit.hpp"
 #include "foundation/errors.hpp"
+#include "tests/support/programs.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight {
@@ -91,18 +92,17 @@ TEST_F(SegmentLog, AFlippedByteLosesItsRecordAndIsNamed) {
 TEST_F(SegmentLog, AKilledWriterLeavesEveryRecordThatWasAppended) {
   int pipe_ends[2];
   ASSERT_EQ(pipe(pipe_ends), 0);
-  const pid_t child = fork();
-  if (child == 0) {
+  const pid_t child = test::start_copy([&] {
     SegmentWriter writer(folder_, {}, {RecordKind::kSettings, 0, "settings"});
-    for (int i = 0;; ++i) {
-      if (!writer.append(record(i)) || ::write(pipe_ends[1], &i, sizeof i) != sizeof i) _exit(1);
-    }
-  }
+    int i = 0;
+    while (writer.append(record(i)) && ::write(pipe_ends[1], &i, sizeof i) == sizeof i) ++i;
+    return 1;
+  });
   int appended = 0;
   while (appended < 200)
     ASSERT_EQ(::read(pipe_ends[0], &appended, sizeof appended), static_cast<ssize_t>(sizeof appended));
   kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
+  wait_for_child(child);
   close(pipe_ends[1]);
   for (int later = 0; ::read(pipe_ends[0], &later, sizeof later) == static_cast<ssize_t>(sizeof later);)
     appended = later;
@@ -136,19 +136,16 @@ TEST_F(SegmentLog, TheOldestFilesGoAndEveryFileBeginsWithTheSettings) {
 
 /// The kernel cuts a write short and refuses the next, as a full disk does.
 TEST_F(SegmentLog, AFullDiskIsAnErrorAndWhatWasWrittenStaysWhole) {
-  const pid_t child = fork();
-  if (child == 0) {
+  const pid_t child = test::start_copy([&] {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{2000, 2000};
     setrlimit(RLIMIT_FSIZE, &limit);
     SegmentWriter writer(folder_, {}, {RecordKind::kSettings, 0, "settings"});
     int failed = 0;
     for (int i = 0; i < 100; ++i) failed += writer.append(record(i)) ? 0 : 1;
-    _exit(failed > 50 && !writer.error().empty() ? 0 : 1);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
+    return failed > 50 && !writer.error().empty() ? 0 : 1;
+  });
+  EXPECT_TRUE(wait_for_child(child).succeeded());
   const SegmentLogContents contents = read_segments(folder_);
   EXPECT_TRUE(contents.damages.empty());
   EXPECT_EQ(times(contents), range(0, 16));

@@ -1,12 +1,11 @@
 #include "sensors/messages/livox_custom_msg.hpp"
 
-#include <cstdlib>
-
 #include <rosbag/view.h>
 
 #include <gtest/gtest.h>
 
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/programs.hpp"
 
 namespace alight::testing {
 namespace {
@@ -31,9 +30,7 @@ TEST(LivoxCustomMsg, SurvivesABag) {
 
 /// ROS's own Python reader decodes by the definition text, and computes the checksum of that text.
 TEST(LivoxCustomMsg, RosPythonReadsItAndAgreesOnTheChecksum) {
-  if (std::system("/usr/bin/python3 -c 'import rosbag, genpy.dynamic' >/dev/null 2>&1") != 0) {
-    GTEST_SKIP() << "needs python3-rosbag";
-  }
+  if (!test::python_has("rosbag, genpy.dynamic")) GTEST_SKIP() << "needs python3-rosbag";
   const ScratchFolder folder;
   const std::string path = (folder.path() / "livox.bag").string();
   {
@@ -51,8 +48,9 @@ TEST(LivoxCustomMsg, RosPythonReadsItAndAgreesOnTheChecksum) {
       "topic, message, t = next(bag.read_messages())\n"
       "assert message.point_num == 5 and len(message.points) == 5\n"
       "assert message.points[0].x == 10.0 and message.points[4].reflectivity == 4\n");
-  const std::string command = "/usr/bin/python3 " + (folder.path() / "read.py").string() + " " + path;
-  EXPECT_EQ(std::system(command.c_str()), 0);
+  const test::CommandRun read =
+      test::run_command("/usr/bin/python3 " + (folder.path() / "read.py").string() + " " + path);
+  EXPECT_EQ(read.exit_code, 0) << read.out;
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -31,6 +30,7 @@
 #include "sim/record/sensor_messages.hpp"
 #include "sim/record/simulated_flight.hpp"
 #include "sim/sensors/livox_scan.hpp"
+#include "tests/support/programs.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight::sim {
@@ -286,10 +286,7 @@ TEST_F(FlightRecorderTest, RefusesRigsThatItCannotFly) {
 }
 
 TEST_F(FlightRecorderTest, RosOwnPythonReadsTheBag) {
-  constexpr const char* kPython = "/usr/bin/python3";
-  if (std::system((std::string(kPython) + " -c 'import rosbag' 2>/dev/null").c_str()) != 0) {
-    GTEST_SKIP() << "Debian's python3-rosbag is not installed";
-  }
+  if (!test::python_has("rosbag")) GTEST_SKIP() << "Debian's python3-rosbag is not installed";
   record(config({"flights.0.plan.duration_s=0.4", "recorder.compression=lz4"}));
   const fs::path script = folder_ / "read.py";
   std::ofstream(script) << R"(
@@ -309,14 +306,10 @@ for topic, message, t in bag.read_messages():
     points += sum(1 for p in message.points if p.x > 5)
 print(points)
 )";
-  FILE* pipe = popen(
-      (std::string(kPython) + " " + script.string() + " " + bag_path().string() + " 2>&1").c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  std::string output;
-  std::array<char, 512> chunk{};
-  while (std::fgets(chunk.data(), static_cast<int>(chunk.size()), pipe) != nullptr) output += chunk.data();
-  ASSERT_EQ(pclose(pipe), 0) << output;
-  EXPECT_GT(std::stoi(output), 20'000);
+  const test::CommandRun read =
+      test::run_command("/usr/bin/python3 " + script.string() + " " + bag_path().string());
+  ASSERT_EQ(read.exit_code, 0) << read.out;
+  EXPECT_GT(std::stoi(read.out), 20'000);
 }
 
 TEST(MessageSchedule, PosesEncloseImagesAndShots) {

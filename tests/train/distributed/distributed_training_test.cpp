@@ -4,14 +4,12 @@
 #include <sstream>
 #include <thread>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "foundation/config_reader.hpp"
 #include "models/checkpoint.hpp"
+#include "tests/support/programs.hpp"
 #include "tests/support/reserved_port.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/train/distributed/tiny_run.hpp"
@@ -20,8 +18,7 @@ namespace alight {
 namespace {
 
 namespace fs = std::filesystem;
-using std::chrono::seconds;
-using test::RankProcess;
+using test::Program;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -40,11 +37,10 @@ class DistributedTrainingTest : public testing::Test {
   }
   /// scripts/cluster/launch.sh. @returns the exit code; what it said is in <root>/log
   int launch(int processes, const std::string& arguments) const {
-    const std::string command = "ALIGHT_TRAIN=" ALIGHT_BINARY_DIR "/bin/alight-train " ALIGHT_SOURCE_DIR
-                                "/scripts/cluster/launch.sh " +
-                                std::to_string(processes) + " " + arguments + " >" + path("log") + " 2>&1";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return test::run_command("ALIGHT_TRAIN=" ALIGHT_BINARY_DIR "/bin/alight-train " ALIGHT_SOURCE_DIR
+                             "/scripts/cluster/launch.sh " +
+                             std::to_string(processes) + " " + arguments + " >" + path("log") + " 2>&1")
+        .exit_code;
   }
   /// The arguments for a new run. @param name of its folder; its configuration is written beside it
   std::string new_run(const TrainConfig& config, const std::string& name) const {
@@ -97,15 +93,15 @@ struct Fault {
 /// @returns whether that was in mid-run
 bool strike(const Fault& fault, const std::string& arguments, const fs::path& run) {
   const test::ReservedPort port;
-  RankProcess first(0, port.number(), arguments, run.string() + ".log0");
-  RankProcess second(1, port.number(), arguments, run.string() + ".log1");
-  RankProcess& struck = fault.rank == 0 ? first : second;
-  RankProcess& survivor = fault.rank == 0 ? second : first;
+  Program first(test::rank_command(0, port.number(), arguments), run.string() + ".log0");
+  Program second(test::rank_command(1, port.number(), arguments), run.string() + ".log1");
+  Program& struck = fault.rank == 0 ? first : second;
+  Program& survivor = fault.rank == 0 ? second : first;
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
   while (!fs::exists(run / "last.pt") && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   struck.send(fault.signal);
-  const int exit_code = survivor.wait(seconds(120));
+  const int exit_code = survivor.wait(120);
   struck.send(SIGKILL);
   if (load_network(run / "last.pt").info.epoch == kEpochs) return false;
   EXPECT_EQ(exit_code, 1) << survivor.said();

@@ -1,19 +1,11 @@
 #include "tests/train/distributed/tiny_run.hpp"
 
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-#include <thread>
 #include <vector>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "dataset/store/sample_store.hpp"
 #include "tests/models/tiny_net.hpp"
+#include "tests/support/programs.hpp"
 
 namespace alight::test {
 namespace fs = std::filesystem;
@@ -89,43 +81,10 @@ TrainConfig tiny_run_config(const fs::path& dataset) {
   return c;
 }
 
-RankProcess::RankProcess(int rank, int port, const std::string& arguments, const fs::path& log) : log_(log) {
-  const std::string command =
-      "exec env RANK=" + std::to_string(rank) + " LOCAL_RANK=" + std::to_string(rank) +
-      " WORLD_SIZE=2 MASTER_ADDR=127.0.0.1 MASTER_PORT=" + std::to_string(port) + " " +
-      ALIGHT_BINARY_DIR "/bin/alight-train " + arguments + " >" + log.string() + " 2>&1";
-  pid_ = fork();
-  if (pid_ == 0) {
-    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-    _exit(127);
-  }
-  if (pid_ < 0) throw std::runtime_error("fork failed");
-}
-
-RankProcess::~RankProcess() {
-  if (pid_ <= 0) return;
-  kill(pid_, SIGKILL);
-  waitpid(pid_, nullptr, 0);
-}
-
-void RankProcess::send(int signal) const { kill(pid_, signal); }
-
-int RankProcess::wait(std::chrono::seconds longest) {
-  const auto end = std::chrono::steady_clock::now() + longest;
-  int status = 0;
-  while (waitpid(pid_, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > end) return -1;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  pid_ = -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-std::string RankProcess::said() const {
-  std::ifstream stream(log_);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
+std::vector<std::string> rank_command(int rank, int port, const std::string& arguments) {
+  return shell_command("exec env RANK=" + std::to_string(rank) + " LOCAL_RANK=" + std::to_string(rank) +
+                       " WORLD_SIZE=2 MASTER_ADDR=127.0.0.1 MASTER_PORT=" + std::to_string(port) + " " +
+                       ALIGHT_BINARY_DIR "/bin/alight-train " + arguments);
 }
 
 }  // namespace alight::test
