@@ -60,6 +60,7 @@ alight_package(Threads libc6-dev)
 alight_package(Eigen3 libeigen3-dev NO_MODULE)
 alight_package(OpenCV libopencv-dev COMPONENTS core imgproc imgcodecs calib3d)
 alight_package(yaml-cpp libyaml-cpp-dev)
+alight_package(fmt libfmt-dev)  # the one that Debian's spdlog links
 alight_package(spdlog libspdlog-dev)
 alight_package(CLI11 libcli11-dev)
 alight_package(nlohmann_json nlohmann-json3-dev)

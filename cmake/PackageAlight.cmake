@@ -33,8 +33,8 @@ set(CPACK_DEBIAN_DEV_DESCRIPTION "${PROJECT_DESCRIPTION} - development files
 Static libraries, headers and CMake package of Alight's onboard engine:
 depth with a verdict, choice of landing sites, flight logs.")
 # What AlightLibraries.cmake finds, by names that Debian 12 and 13 share.
-set(dev_depends libeigen3-dev libopencv-dev libyaml-cpp-dev libspdlog-dev libcli11-dev nlohmann-json3-dev
-                libgeographiclib-dev libturbojpeg0-dev libxxhash-dev librosbag-storage-dev libsensor-msgs-dev
+set(dev_depends libeigen3-dev libopencv-dev libyaml-cpp-dev libfmt-dev libspdlog-dev libcli11-dev
+                nlohmann-json3-dev libgeographiclib-dev libturbojpeg0-dev libxxhash-dev librosbag-storage-dev libsensor-msgs-dev
                 libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev libcpp-httplib-dev)
 if(ALIGHT_WITH_TORCH)
   list(APPEND dev_depends libtorch-dev)

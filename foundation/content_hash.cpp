@@ -1,10 +1,10 @@
 #include "foundation/content_hash.hpp"
 
-#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <vector>
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include "foundation/errors.hpp"
@@ -14,12 +14,7 @@ namespace {
 
 constexpr std::size_t kBlockBytes = 1 << 20;
 
-std::string hex(const XXH128_hash_t& hash) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return text;
-}
+std::string hex(const XXH128_hash_t& hash) { return fmt::format("{:016x}{:016x}", hash.high64, hash.low64); }
 
 }  // namespace
 

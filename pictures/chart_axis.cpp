@@ -1,10 +1,10 @@
 #include "pictures/chart_axis.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace alight {
 namespace {
@@ -76,9 +76,7 @@ ChartAxis logarithmic_axis(double min, double max) {
 }
 
 std::string tick_label(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  std::string label = text.data();
+  std::string label = fmt::format("{:.6g}", value);
   const std::size_t exponent = label.find('e');
   if (exponent == std::string::npos) return label;
   // "1e-05", "1e+06": the sign stays where it is minus, leading zeros go.

@@ -11,8 +11,8 @@ packages=(
   # tool chain
   clang lld libomp-dev clang-format-19 libclang-rt-dev cmake ninja-build ccache git ca-certificates pkg-config
   # libraries
-  libtorch-dev libgloo-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libcli11-dev
-  nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
+  libtorch-dev libgloo-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libfmt-dev libspdlog-dev
+  libcli11-dev nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
   libboost-dev libturbojpeg0-dev libxxhash-dev
   # ROS 1 logs
   librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev

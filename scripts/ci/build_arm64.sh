@@ -13,8 +13,8 @@ set -euo pipefail
 # Of scripts/setup.sh's list, what alight-infer and its tests need, and the C++ library.
 packages=(
   libc6-dev libstdc++-12-dev
-  libtorch-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libcli11-dev
-  nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libboost-dev libturbojpeg0-dev libxxhash-dev
+  libtorch-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libfmt-dev libspdlog-dev
+  libcli11-dev nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libboost-dev libturbojpeg0-dev libxxhash-dev
   librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev
   libgtest-dev libgmock-dev
 )
