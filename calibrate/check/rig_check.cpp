@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "foundation/config_reader.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -53,45 +54,39 @@ void judge_right(const StereoAgreement& stereo, const RigCheckConfig& config, st
 
 std::string why_no_peak(const EdgeCheck& edges, const EdgeCheckConfig& config) {
   if (edges.edges < config.min_edges) {
-    return format_text(
-        "the LiDAR saw only %d depth edges where a camera sees them too, %d are needed; fly over houses, "
-        "trees or "
-        "boulders, or longer",
+    return fmt::format(
+        "the LiDAR saw only {} depth edges where a camera sees them too, {} are needed; fly over houses, "
+        "trees or boulders, or longer",
         edges.edges, config.min_edges);
   }
-  return format_text(
+  return fmt::format(
       "the LiDAR's depth edges lie on the images' edges nowhere better than by chance (the best place stands "
-      "out by "
-      "%.1f standard deviations, %.1f are needed): the images show no edges, poses are wrong, clocks "
-      "disagree, or "
-      "the LiDAR is turned by more than %.1f deg",
+      "out by {:.1f} standard deviations, {:.1f} are needed): the images show no edges, poses are wrong, "
+      "clocks disagree, or the LiDAR is turned by more than {:.1f} deg",
       edges.stands_out, config.min_stands_out, config.max_turn_deg);
 }
 
 void explain(const RigCheckConfig& config, RigCheck& check) {
   for (const AxisCheck& axis : check.axes) {
-    if (axis.moved)
-      check.reasons.push_back(format_text("%s: %+.3f %s", axis.name.c_str(), axis.by, axis.unit.c_str()));
+    if (axis.moved) check.reasons.push_back(fmt::format("{}: {:+.3f} {}", axis.name, axis.by, axis.unit));
   }
   for (const AxisCheck& axis : check.axes) {
     if (axis.found && !axis.judged && axis.unit == "deg")
-      check.reasons.push_back(format_text(
-          "%s cannot be judged: it would show only from %.2f %s on; fly longer or over more that stands up",
-          axis.name.c_str(), axis.noticed_from, axis.unit.c_str()));
+      check.reasons.push_back(fmt::format(
+          "{} cannot be judged: it would show only from {:.2f} {} on; fly longer or over more that stands up",
+          axis.name, axis.noticed_from, axis.unit));
   }
   if (!check.edges.peak) check.reasons.push_back(why_no_peak(check.edges, config.edges));
   if (check.has_right && check.stereo.points < config.min_stereo_points) {
     check.reasons.push_back(
-        format_text("only %d LiDAR points lie on texture that both cameras see, %d are needed: it is too "
-                    "dark, or the right "
-                    "camera is turned by more than a degree",
+        fmt::format("only {} LiDAR points lie on texture that both cameras see, {} are needed: it is too "
+                    "dark, or the right camera is turned by more than a degree",
                     check.stereo.points, config.min_stereo_points));
   } else if (check.has_right && !usable(check.stereo, config)) {
     check.reasons.push_back(
-        format_text("no turn of the right camera explains where it sees the left one's patches (%.0f %% of "
-                    "%d, %.0f %% are needed): "
-                    "the eyes' stamps or topics do not belong together, or the right camera is turned by "
-                    "more than a degree",
+        fmt::format("no turn of the right camera explains where it sees the left one's patches ({:.0f} % of "
+                    "{}, {:.0f} % are needed): the eyes' stamps or topics do not belong together, or the "
+                    "right camera is turned by more than a degree",
                     100 * check.stereo.explained, check.stereo.points, 100 * config.min_stereo_explained));
   }
 }

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "calibrate/check/rig_check.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -18,9 +18,9 @@ const char* judgement(const AxisCheck& axis) {
 
 std::string axis_line(const AxisCheck& axis) {
   if (!axis.found)
-    return format_text("%-28s %10s %10s %13s %s\n", axis.name.c_str(), "-", "-", "-", judgement(axis));
-  return format_text("%-28s %+10.3f %10.4f %8.2f %-4s %s\n", axis.name.c_str(), axis.by, axis.sigma,
-                     axis.noticed_from, axis.unit.c_str(), judgement(axis));
+    return fmt::format("{:28} {:>10} {:>10} {:>13} {}\n", axis.name, "-", "-", "-", judgement(axis));
+  return fmt::format("{:28} {:>+10.3f} {:>10.4f} {:>8.2f} {:4} {}\n", axis.name, axis.by, axis.sigma,
+                     axis.noticed_from, axis.unit, judgement(axis));
 }
 
 void draw_title(cv::Mat& picture, const std::string& title) {
@@ -90,22 +90,22 @@ cv::Mat draw_scores(const EdgeAgreement& agreement, const RigCheck& check, doubl
 
 std::string format_rig_check(const RigCheck& check) {
   const EdgeCheck& e = check.edges;
-  std::string text = format_text("verdict: %s\n", name(check.verdict));
+  std::string text = fmt::format("verdict: {}\n", name(check.verdict));
   for (const std::string& reason : check.reasons) text += "  " + reason + "\n";
-  text += format_text("\nLiDAR's depth edges against image edges: %d edges in %d images\n", e.edges, e.views);
-  text += format_text(
-      "  score %.3f, at its best nearby %.3f, by chance %.3f; the best stands out by %.1f standard "
+  text += fmt::format("\nLiDAR's depth edges against image edges: {} edges in {} images\n", e.edges, e.views);
+  text += fmt::format(
+      "  score {:.3f}, at its best nearby {:.3f}, by chance {:.3f}; the best stands out by {:.1f} standard "
       "deviations\n",
       e.score, e.best_score, e.chance, e.stands_out);
   if (check.has_right) {
     const StereoAgreement& s = check.stereo;
-    text += format_text("left against right camera at the LiDAR's points: %d points in %d images\n", s.points,
+    text += fmt::format("left against right camera at the LiDAR's points: {} points in {} images\n", s.points,
                         s.views);
-    text +=
-        format_text("  correlation %.3f, at its best nearby %.3f, %.2f px away; one turn explains %.0f %%\n",
-                    s.correlation, s.best_correlation, s.offset_px, 100 * s.explained);
+    text += fmt::format(
+        "  correlation {:.3f}, at its best nearby {:.3f}, {:.2f} px away; one turn explains {:.0f} %\n",
+        s.correlation, s.best_correlation, s.offset_px, 100 * s.explained);
   }
-  text += format_text("\n%-28s %10s %10s %8s\n", "what would better them", "by", "1 sigma", "from");
+  text += fmt::format("\n{:28} {:>10} {:>10} {:>8}\n", "what would better them", "by", "1 sigma", "from");
   for (const AxisCheck& axis : check.axes) text += axis_line(axis);
   text +=
       "\nfrom: what a motion has to exceed to be noticed. Axes: x right, y down, z forward.\n"
@@ -154,8 +154,8 @@ cv::Mat draw_rig_check(const FlightViews& flight, const RigCheck& check, const R
   cv::Mat right = draw_scores(agreement, check, config.edges.max_turn_deg, left.rows);
   draw_title(left, check.edges.peak ? "depth edges: as the rig says (red), at their best (green)"
                                     : "depth edges as the rig says");
-  draw_title(right,
-             format_text("agreement, turns +-%.1f deg about x (right), y (down)", config.edges.max_turn_deg));
+  draw_title(right, fmt::format("agreement, turns +-{:.1f} deg about x (right), y (down)",
+                                config.edges.max_turn_deg));
   cv::Mat picture;
   cv::hconcat(left, right, picture);
   return picture;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "foundation/text_format.hpp"
+#include <fmt/format.h>
+
 #include "geometry/frames.hpp"
 #include "pictures/plot_panel.hpp"
 
@@ -23,13 +24,13 @@ void draw_scores(const cv::Mat& picture, const std::string& title, const ClockOf
                           [](const auto& a, const auto& b) { return a.second < b.second; });
   PlotPanel panel(
       picture,
-      title + (clock.told ? format_text(": %+.1f +- %.1f ms", 1e3 * clock.offset_s, 1e3 * clock.sigma_s)
+      title + (clock.told ? fmt::format(": {:+.1f} +- {:.1f} ms", 1e3 * clock.offset_s, 1e3 * clock.sigma_s)
                           : ": cannot be told"),
       {clock.scores.front().first, clock.scores.back().first}, {low->second, high->second});
   panel.line(clock.scores, kScoreInk);
   if (clock.told) panel.mark(clock.offset_s, kImages);
-  panel.label_x(format_text("%+.0f ms", 1e3 * clock.scores.front().first),
-                format_text("%+.0f ms", 1e3 * clock.scores.back().first));
+  panel.label_x(fmt::format("{:+.0f} ms", 1e3 * clock.scores.front().first),
+                fmt::format("{:+.0f} ms", 1e3 * clock.scores.back().first));
 }
 
 /// The axis about which the camera turned most.
@@ -51,14 +52,14 @@ void draw_turns(const cv::Mat& picture, const std::vector<ViewTurn>& turns) {
     largest = std::max({largest, std::abs(seen.back().second), std::abs(posed.back().second)});
   }
   PlotPanel panel(picture,
-                  format_text("turn between images, up to %.2f deg, about the camera's ", largest) +
+                  fmt::format("turn between images, up to {:.2f} deg, about the camera's ", largest) +
                       std::string(1, "xyz"[axis]),
                   {0, turns.back().t_s}, {-largest, largest});
   panel.line(posed, kPoses);
   panel.line(seen, kImages);
   panel.legend("by the images", kImages);
   panel.legend("by the poses", kPoses);
-  panel.label_x("0 s", format_text("%.0f s", turns.back().t_s));
+  panel.label_x("0 s", fmt::format("{:.0f} s", turns.back().t_s));
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 #include <optional>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include "calibrate/clocks/edge_agreement.hpp"
 #include "calibrate/clocks/score_peak.hpp"
 #include "calibrate/clocks/turn_search.hpp"
 #include "calibrate/clocks/view_turns.hpp"
 #include "foundation/config_reader.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -98,10 +98,9 @@ void align_camera(const FlightViews& flight, const ClockAlignmentConfig& config,
         std::max<double>(config.min_pairs, config.min_followed * static_cast<double>(flight.views.size()));
     if (static_cast<double>(residuals.pairs()) < wanted) {
       camera.told = false;
-      camera.reason = format_text(
-          "only %.0f images show what the poses expect of the one before, %.0f are needed: fly longer, in "
-          "daylight, and "
-          "check the topics of attitude and position",
+      camera.reason = fmt::format(
+          "only {:.0f} images show what the poses expect of the one before, {:.0f} are needed: fly longer, "
+          "in daylight, and check the topics of attitude and position",
           static_cast<double>(residuals.pairs()), wanted);
       return;
     }
@@ -114,16 +113,14 @@ void align_camera(const FlightViews& flight, const ClockAlignmentConfig& config,
   result.correlation = correlation(result.turns);
   if (result.correlation < config.min_correlation) {
     camera.told = false;
-    camera.reason = format_text(
-        "the turns that images and poses show hardly correlate (%.2f, at least %.2f are needed): fly curves, "
-        "and check "
-        "the attitude's topic and T_cam_imu",
+    camera.reason = fmt::format(
+        "the turns that images and poses show hardly correlate ({:.2f}, at least {:.2f} are needed): fly "
+        "curves, and check the attitude's topic and T_cam_imu",
         result.correlation, config.min_correlation);
   } else if (!camera.told) {
-    camera.reason = format_text(
-        "the vehicle turns too steadily (1 sigma %.1f ms, at most %.1f): fly curves to either side, with "
-        "sharp "
-        "beginnings and ends",
+    camera.reason = fmt::format(
+        "the vehicle turns too steadily (1 sigma {:.1f} ms, at most {:.1f}): fly curves to either side, with "
+        "sharp beginnings and ends",
         1e3 * camera.sigma_s, 1e3 * config.max_sigma_s);
   }
 }
@@ -165,7 +162,7 @@ void align_lidar(const FlightViews& flight, const ClockAlignmentConfig& config, 
   const std::size_t points = edges.at(0, kMargin_px).points();
   if (static_cast<int>(points) < config.min_edges || flight.views.size() < 3) {
     lidar.reason =
-        format_text("only %zu depth edges lie in images, %d are needed; fly over houses, trees or boulders",
+        fmt::format("only {} depth edges lie in images, {} are needed; fly over houses, trees or boulders",
                     points, config.min_edges);
     return;
   }
@@ -177,16 +174,14 @@ void align_lidar(const FlightViews& flight, const ClockAlignmentConfig& config, 
   result.stands_out = search_turns(edges.at(lidar.offset_s, kSearchMargin_px), kSearch_deg).stands_out;
   if (result.stands_out < kStandsOut) {
     lidar.told = false;
-    lidar.reason = format_text(
-        "the LiDAR's depth edges lie on the images' edges no better than by chance (%.1f standard "
-        "deviations, %.1f are "
-        "needed): fly over more that stands up, in daylight, and check T_cam_lidar",
+    lidar.reason = fmt::format(
+        "the LiDAR's depth edges lie on the images' edges no better than by chance ({:.1f} standard "
+        "deviations, {:.1f} are needed): fly over more that stands up, in daylight, and check T_cam_lidar",
         result.stands_out, kStandsOut);
   } else if (!lidar.told) {
-    lidar.reason = format_text(
-        "the depth edges lie on the images' edges as well at other offsets (1 sigma %.1f ms, at most %.1f): "
-        "fly faster, "
-        "with turns, over more that stands up",
+    lidar.reason = fmt::format(
+        "the depth edges lie on the images' edges as well at other offsets (1 sigma {:.1f} ms, at most "
+        "{:.1f}): fly faster, with turns, over more that stands up",
         1e3 * lidar.sigma_s, 1e3 * config.max_sigma_s);
   }
 }

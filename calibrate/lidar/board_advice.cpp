@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include "calibrate/lidar/extrinsics.hpp"
 #include "calibrate/lidar/joint_refinement.hpp"
@@ -75,9 +75,8 @@ std::vector<Advice> advise_poses(const Chessboard& board, const std::vector<Boar
                                             board_information(board, extrinsics.T_camera_lidar, T_lidar_board,
                                                               information, intrinsics, noise));
           const Vector6d sigma = after.diagonal().cwiseSqrt();
-          char text[160];
-          std::snprintf(text, sizeof(text), "%.1f m away in the %s %s of the image, %s", distance_m,
-                        kRows[row], kColumns[column], tilt.words);
+          const std::string text = fmt::format("{:.1f} m away in the {} {} of the image, {}", distance_m,
+                                               kRows[row], kColumns[column], tilt.words);
           ranked.push_back({largest_scaled_sigma(after, distance_m),
                             {text, to_degrees(sigma.tail<3>().maxCoeff()), sigma.head<3>().maxCoeff()}});
         }

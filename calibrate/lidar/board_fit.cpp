@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 
 #include "calibrate/board/board_plane.hpp"
@@ -72,11 +72,8 @@ LidarBoardFit fit(const std::vector<Beam>& beams, const Chessboard& board, bool 
 }
 
 std::string wrong_size(double measured_m, const Chessboard& board) {
-  char text[160];
-  std::snprintf(text, sizeof(text),
-                "the LiDAR measures squares of %.4f m, not %.4f m: check --square-m with a ruler", measured_m,
-                board.square_m);
-  return text;
+  return fmt::format("the LiDAR measures squares of {:.4f} m, not {:.4f} m: check --square-m with a ruler",
+                     measured_m, board.square_m);
 }
 
 std::string judge(const LidarBoard& fitted, const Chessboard& board) {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "calibrate/lidar/extrinsics_search.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -27,11 +28,10 @@ void require_spread(const std::vector<BoardView>& views, const std::vector<char>
     }
   }
   if (widest_deg >= config.min_tilt_spread_deg) return;
-  throw DataError(format_text(
-      "boards all parallel (within %.1f deg, at least %.0f are needed): the mounting is not well observable "
-      "- "
-      "turns about axes in the board's plane (yaw and pitch) cannot be told from shifts; record more boards, "
-      "tilted by 20 to 40 deg to the left, right, front and back",
+  throw DataError(fmt::format(
+      "boards all parallel (within {:.1f} deg, at least {:.0f} are needed): the mounting is not well "
+      "observable - turns about axes in the board's plane (yaw and pitch) cannot be told from shifts; record "
+      "more boards, tilted by 20 to 40 deg to the left, right, front and back",
       widest_deg, config.min_tilt_spread_deg));
 }
 
@@ -44,23 +44,22 @@ void require_observable(const Extrinsics& result, const ExtrinsicsConfig& config
   sigma.tail<3>().maxCoeff(&turn);
   const double turn_deg = to_degrees(sigma[3 + turn]);
   if (sigma[shift] <= config.max_translation_sigma_m && turn_deg <= config.max_rotation_sigma_deg) return;
-  throw DataError(format_text(
-      "the mounting is not observable well enough: 1 sigma of the shift along the camera's %s is %.1f mm (at "
-      "most %.1f), of the turn about its %s %.3f deg (at most %.3f); record more boards, at other places of "
-      "the image, nearer, and tilted in other directions",
-      kAxes[shift], 1e3 * sigma[shift], 1e3 * config.max_translation_sigma_m, kAxes[turn], turn_deg,
-      config.max_rotation_sigma_deg));
+  throw DataError(
+      fmt::format("the mounting is not observable well enough: 1 sigma of the shift along the camera's {} is "
+                  "{:.1f} mm (at most {:.1f}), of the turn about its {} {:.3f} deg (at most {:.3f}); record "
+                  "more boards, at other places of the image, nearer, and tilted in other directions",
+                  kAxes[shift], 1e3 * sigma[shift], 1e3 * config.max_translation_sigma_m, kAxes[turn],
+                  turn_deg, config.max_rotation_sigma_deg));
 }
 
 void require_distinct(const Extrinsics& result, const ExtrinsicsConfig& config) {
   if (result.alternatives.empty()) return;
   const Alternative& other = result.alternatives.front();
   if (other.rmse_px >= config.min_distinctness * std::max(result.rmse_px, 0.2)) return;
-  throw DataError(format_text(
-      "two mountings explain the boards: RMSE %.2f px and %.2f px; %.0f deg apart. The board's two ends look "
-      "alike and all boards are at nearly one place: record boards farther apart in the image, or use a "
-      "board "
-      "whose numbers of corners are one even and one odd",
+  throw DataError(fmt::format(
+      "two mountings explain the boards: RMSE {:.2f} px and {:.2f} px; {:.0f} deg apart. The board's two "
+      "ends look alike and all boards are at nearly one place: record boards farther apart in the image, or "
+      "use a board whose numbers of corners are one even and one odd",
       result.rmse_px, other.rmse_px,
       to_degrees(
           rotation_log(result.T_camera_lidar.linear().transpose() * other.T_camera_lidar.linear()).norm())));
@@ -106,8 +105,8 @@ BoardResult board_result(const Chessboard& board, const BoardView& view,
                      used,      ""};
   if (used) return result;
   result.reason =
-      format_text("its corners are %.1f px off (limit %.1f): it moved, or a wrong board was found", rmse_px,
-                  config.max_board_rmse_px);
+      fmt::format("its corners are {:.1f} px off (limit {:.1f}): it moved, or a wrong board was found",
+                  rmse_px, config.max_board_rmse_px);
   return result;
 }
 

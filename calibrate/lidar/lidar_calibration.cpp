@@ -6,11 +6,11 @@
 #include <future>
 #include <utility>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
-#include "foundation/text_format.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
@@ -54,9 +54,9 @@ std::optional<double> lidar_motion_m(const std::vector<LidarReturn>& on_board, c
 }
 
 std::string refuse_moving(const char* sensor, double motion, const char* unit, double limit) {
-  return format_text(
-      "the scene moves: a corner goes by %.3g %s in the %s (at most %.3g); put board and rig on stands, and "
-      "let nobody touch them while recording",
+  return fmt::format(
+      "the scene moves: a corner goes by {:.3g} {} in the {} (at most {:.3g}); put board and rig on stands, "
+      "and let nobody touch them while recording",
       motion, unit, sensor, limit);
 }
 

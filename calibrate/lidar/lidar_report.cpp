@@ -1,14 +1,13 @@
 #include "calibrate/lidar/lidar_report.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "foundation/output_folder.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 #include "pictures/picture_file.hpp"
 
@@ -18,10 +17,11 @@ namespace {
 constexpr int kPanelHeight_px = 640;
 
 std::string board_lines(const Extrinsics& e) {
-  std::string text = format_text("%-24s %9s %9s %9s\n", "board", "RMSE [px]", "dist. [m]", "tilt [deg]");
+  std::string text =
+      fmt::format("{:24} {:>9} {:>9} {:>9}\n", "board", "RMSE [px]", "dist. [m]", "tilt [deg]");
   for (const BoardResult& board : e.boards) {
-    text += format_text("%-24s %9.3f %9.2f %9.0f  %s\n", board.name.c_str(), board.rmse_px, board.distance_m,
-                        board.tilt_deg, board.used ? "" : ("left out: " + board.reason).c_str());
+    text += fmt::format("{:24} {:>9.3f} {:>9.2f} {:>9.0f}  {}\n", board.name, board.rmse_px, board.distance_m,
+                        board.tilt_deg, board.used ? "" : ("left out: " + board.reason));
   }
   return text;
 }
@@ -72,37 +72,37 @@ std::string format_lidar_report(const LidarCalibration& calibration) {
   const Vector6d sigma = e.sigma();
   const Eigen::Vector3d& t = e.T_camera_lidar.translation();
   std::string text = "T_cam_lidar, with 1 sigma in the camera's frame (x right, y down, z forward):\n";
-  text += format_text("  translation  %9.4f %9.4f %9.4f m    +- %.2f %.2f %.2f mm\n", t.x(), t.y(), t.z(),
-                      1e3 * sigma[0], 1e3 * sigma[1], 1e3 * sigma[2]);
+  text += fmt::format("  translation  {:>9.4f} {:>9.4f} {:>9.4f} m    +- {:.2f} {:.2f} {:.2f} mm\n", t.x(),
+                      t.y(), t.z(), 1e3 * sigma[0], 1e3 * sigma[1], 1e3 * sigma[2]);
   const Eigen::Matrix3d R = e.T_camera_lidar.linear();
-  text += format_text("  rotation     %9.5f %9.5f %9.5f      +- %.4f %.4f %.4f deg\n", R(0, 0), R(0, 1),
-                      R(0, 2), to_degrees(sigma[3]), to_degrees(sigma[4]), to_degrees(sigma[5]));
+  text += fmt::format("  rotation     {:>9.5f} {:>9.5f} {:>9.5f}      +- {:.4f} {:.4f} {:.4f} deg\n", R(0, 0),
+                      R(0, 1), R(0, 2), to_degrees(sigma[3]), to_degrees(sigma[4]), to_degrees(sigma[5]));
   for (int row = 1; row < 3; ++row)
-    text += format_text("               %9.5f %9.5f %9.5f\n", R(row, 0), R(row, 1), R(row, 2));
-  text +=
-      format_text("reprojection RMSE  %.3f px; the camera's corners alone scatter by %.3f px a coordinate\n",
-                  e.rmse_px, e.camera_noise_px);
-  text += format_text("residuals          %.2f times what was expected%s\n", e.excess,
+    text += fmt::format("               {:>9.5f} {:>9.5f} {:>9.5f}\n", R(row, 0), R(row, 1), R(row, 2));
+  text += fmt::format(
+      "reprojection RMSE  {:.3f} px; the camera's corners alone scatter by {:.3f} px a coordinate\n",
+      e.rmse_px, e.camera_noise_px);
+  text += fmt::format("residuals          {:.2f} times what was expected{}\n", e.excess,
                       e.excess > 1 ? ": the standard deviations are widened by it" : "");
-  text += format_text(
-      "range offset       %+.1f +- %.1f mm (how much too far the LiDAR measures; not part of a rig file)\n",
+  text += fmt::format(
+      "range offset       {:+.1f} +- {:.1f} mm (how much too far the LiDAR measures; not part of a rig "
+      "file)\n",
       1e3 * e.range_offset_m, 1e3 * e.range_offset_sigma_m);
-  text +=
-      format_text("conditioning       %.0f (1 is ideal, over 1000 boards are too much alike)\n", e.condition);
+  text += fmt::format("conditioning       {:.0f} (1 is ideal, over 1000 boards are too much alike)\n",
+                      e.condition);
   if (e.alternatives.empty()) {
     text += "other minima       none found\n";
   } else {
-    text += format_text("other minima       %zu, the best with %.1f px\n", e.alternatives.size(),
+    text += fmt::format("other minima       {}, the best with {:.1f} px\n", e.alternatives.size(),
                         e.alternatives[0].rmse_px);
   }
   text += "\n" + board_lines(e);
   for (const SceneResult& scene : calibration.scenes) {
-    if (!scene.refused.empty())
-      text += format_text("%-24s left out: %s\n", scene.name.c_str(), scene.refused.c_str());
+    if (!scene.refused.empty()) text += fmt::format("{:24} left out: {}\n", scene.name, scene.refused);
   }
   text += "\nFurther boards that would help most (largest 1 sigma afterwards):\n";
   for (const Advice& advice : calibration.advice) {
-    text += format_text("  %s: %.4f deg, %.2f mm\n", advice.pose.c_str(), advice.rotation_sigma_deg,
+    text += fmt::format("  {}: {:.4f} deg, {:.2f} mm\n", advice.pose, advice.rotation_sigma_deg,
                         1e3 * advice.translation_sigma_m);
   }
   return text;

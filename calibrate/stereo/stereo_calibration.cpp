@@ -6,13 +6,14 @@
 #include <future>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "calibrate/fitting/rigid_motion.hpp"
 #include "calibrate/stereo/camera_calibration.hpp"
 #include "calibrate/stereo/stereo_bundle.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/order_statistics.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/rig/stereo_rectification.hpp"
 
@@ -86,10 +87,9 @@ bool reject_worst(std::vector<StereoView>& views, const std::vector<std::size_t>
   if (rms[worst] < std::max(config.min_rejected_rms_px, config.max_view_over_median * median_px))
     return false;
   views[used[worst]].used = false;
-  views[used[worst]].reason = format_text(
-      "fits with %.2f px, the median view with %.2f px: the board moved between the eyes' exposures, was "
-      "bent, or "
-      "a corner was mistaken",
+  views[used[worst]].reason = fmt::format(
+      "fits with {:.2f} px, the median view with {:.2f} px: the board moved between the eyes' exposures, was "
+      "bent, or a corner was mistaken",
       rms[worst], median_px);
   return true;
 }

@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "calibrate/stereo/stereo_calibration.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/rig/stereo_rectification.hpp"
 
 namespace alight {
@@ -11,18 +11,18 @@ namespace alight {
 std::string format_stereo_report(const StereoCalibration& calibration) {
   const auto used = std::count_if(calibration.views.begin(), calibration.views.end(),
                                   [](const StereoView& view) { return view.used; });
-  std::string report = format_text("RMS %.3f px over %td views\n", calibration.rms_px, used);
-  report += format_text("epipolar error after rectification: RMS %.3f px, largest %.2f px\n",
+  std::string report = fmt::format("RMS {:.3f} px over {} views\n", calibration.rms_px, used);
+  report += fmt::format("epipolar error after rectification: RMS {:.3f} px, largest {:.2f} px\n",
                         calibration.epipolar_rms_px, calibration.epipolar_max_px);
-  report += format_text("image covered by corners: left %.0f %%, right %.0f %%\n\n",
+  report += fmt::format("image covered by corners: left {:.0f} %, right {:.0f} %\n\n",
                         100 * calibration.coverage_left, 100 * calibration.coverage_right);
-  report += format_text("%-22s %12s %10s\n", "parameter", "value", "1 sigma");
+  report += fmt::format("{:22} {:>12} {:>10}\n", "parameter", "value", "1 sigma");
   for (const Estimate& e : calibration.estimates)
-    report += format_text("%-22s %12.5f %10.5f\n", e.name.c_str(), e.value, e.sigma);
-  report += format_text("\n%-28s %10s %10s\n", "view", "left [px]", "right [px]");
+    report += fmt::format("{:22} {:>12.5f} {:>10.5f}\n", e.name, e.value, e.sigma);
+  report += fmt::format("\n{:28} {:>10} {:>10}\n", "view", "left [px]", "right [px]");
   for (const StereoView& view : calibration.views) {
     if (view.used)
-      report += format_text("%-28s %10.3f %10.3f\n", view.name.c_str(), view.rms_left_px, view.rms_right_px);
+      report += fmt::format("{:28} {:>10.3f} {:>10.3f}\n", view.name, view.rms_left_px, view.rms_right_px);
   }
   for (const StereoView& view : calibration.views) {
     if (!view.used) report += view.name + " left out: " + view.reason + "\n";

@@ -3,9 +3,10 @@
 #include <future>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "calibrate/stereo/stereo_calibration.hpp"
 #include "foundation/errors.hpp"
-#include "foundation/text_format.hpp"
 
 namespace alight {
 namespace {
@@ -57,11 +58,11 @@ void find_boards(const Chessboard& board, std::vector<StereoView>& views, int th
   for (const StereoView& view : views) {
     for (const cv::Mat* image : {&view.left, &view.right}) {
       if (image->size() == views.front().left.size()) continue;
-      throw DataError(
-          view.name + ": the " + (image == &view.left ? "left" : "right") +
-          format_text(" image has %dx%d pixels, the first view's %dx%d; all have to be of one resolution, "
-                      "recorded as they will be used",
-                      image->cols, image->rows, views.front().left.cols, views.front().left.rows));
+      throw DataError(view.name + ": the " + (image == &view.left ? "left" : "right") +
+                      fmt::format(" image has {}x{} pixels, the first view's {}x{}; all have to be of one "
+                                  "resolution, recorded as they will be used",
+                                  image->cols, image->rows, views.front().left.cols,
+                                  views.front().left.rows));
     }
   }
   const auto step = static_cast<std::size_t>(std::max(1, threads));
