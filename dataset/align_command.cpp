@@ -2,11 +2,12 @@
 
 #include <cstdio>
 
+#include <fmt/format.h>
+
 #include "calibrate/clocks/align_picture.hpp"
 #include "calibrate/clocks/turn_search.hpp"
 #include "foundation/errors.hpp"
 #include "foundation/shipped_files.hpp"
-#include "foundation/text_format.hpp"
 #include "pictures/picture_file.hpp"
 
 namespace alight {
@@ -15,7 +16,8 @@ namespace {
 std::string describe(const char* sensor, const ClockOffset& clock) {
   std::string line = std::string(sensor) + "  ";
   if (!clock.told) return line + "cannot be told: " + clock.reason + "\n";
-  return line + format_text("%+7.1f ms  +- %.1f ms (1 sigma)\n", 1e3 * clock.offset_s, 1e3 * clock.sigma_s);
+  return line +
+         fmt::format("{:>+7.1f} ms  +- {:.1f} ms (1 sigma)\n", 1e3 * clock.offset_s, 1e3 * clock.sigma_s);
 }
 
 }  // namespace
@@ -24,22 +26,23 @@ std::string format_clock_alignment(const ClockAlignment& alignment, const Rig& r
   std::string report = "offset to the poses' clock, on top of the rig file's time shifts:\n";
   report += describe("camera", alignment.camera) + describe("LiDAR ", alignment.lidar);
   if (!alignment.turns.empty())
-    report += format_text("turns by images and by poses correlate by %.4f\n", alignment.correlation);
+    report += fmt::format("turns by images and by poses correlate by {:.4f}\n", alignment.correlation);
   if (alignment.stands_out > 0)
-    report += format_text(
-        "depth edges stand out on image edges by %.1f standard deviations (chance stays below %.1f)\n",
+    report += fmt::format(
+        "depth edges stand out on image edges by {:.1f} standard deviations (chance stays below {:.1f})\n",
         alignment.stands_out, kStandsOut);
   if (!alignment.camera.told && !alignment.lidar.told) return report;
   report += "\nFor the rig file:\n";
   if (alignment.camera.told) {
-    report += format_text("cam0:\n  timeshift_cam_imu: %.4f\n",
+    report += fmt::format("cam0:\n  timeshift_cam_imu: {:.4f}\n",
                           rig.cam0.timeshift_cam_imu_s + alignment.camera.offset_s);
     if (rig.cam1)
-      report += format_text("cam1:\n  timeshift_cam_imu: %.4f\n",
+      report += fmt::format("cam1:\n  timeshift_cam_imu: {:.4f}\n",
                             rig.cam1->timeshift_cam_imu_s + alignment.camera.offset_s);
   }
   if (alignment.lidar.told && rig.lidar0)
-    report += format_text("lidar0:\n  timeshift: %.4f\n", rig.lidar0->timeshift_s + alignment.lidar.offset_s);
+    report +=
+        fmt::format("lidar0:\n  timeshift: {:.4f}\n", rig.lidar0->timeshift_s + alignment.lidar.offset_s);
   return report;
 }
 

@@ -1,10 +1,10 @@
 #include "models/network_summary.hpp"
 
-#include <cstdio>
 #include <map>
 #include <sstream>
 
 #include <ATen/record_function.h>
+#include <fmt/format.h>
 
 namespace alight {
 namespace {
@@ -36,10 +36,7 @@ std::unique_ptr<at::ObserverContext> on_operator_start(const at::RecordFunction&
 
 void append_row(std::string& table, const std::string& name, const std::string& output,
                 std::int64_t parameters, double gflop) {
-  char line[160];
-  std::snprintf(line, sizeof line, "%-38s %-20s %12lld %9.3f\n", name.c_str(), output.c_str(),
-                static_cast<long long>(parameters), gflop);
-  table += line;
+  table += fmt::format("{:38} {:20} {:12} {:>9.3f}\n", name, output, parameters, gflop);
 }
 
 }  // namespace
@@ -70,9 +67,7 @@ std::vector<LayerCost> measure_layers(DepthCompletionNet net, std::int64_t heigh
 
 std::string describe_network(DepthCompletionNet net, std::int64_t height_px, std::int64_t width_px) {
   const std::vector<LayerCost> layers = measure_layers(net, height_px, width_px);
-  char head[160];
-  std::snprintf(head, sizeof head, "%-38s %-20s %12s %9s\n", "layer", "output", "weights", "GFLOP");
-  std::string table = head;
+  std::string table = fmt::format("{:38} {:20} {:>12} {:>9}\n", "layer", "output", "weights", "GFLOP");
   std::string sums;
   double gflop_total = 0;
   for (const char* part : {"image_encoder", "depth_encoder", "decoder"}) {

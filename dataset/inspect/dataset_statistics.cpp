@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "foundation/order_statistics.hpp"
-#include "foundation/text_format.hpp"
 #include "pictures/plot_panel.hpp"
 
 namespace alight {
@@ -71,8 +71,8 @@ void draw_heights(const cv::Mat& picture, const DatasetStatistics& s) {
     const double from_m = s.height_step_m * static_cast<double>(i);
     panel.bar({from_m, from_m + s.height_step_m}, s.heights[i], {200, 140, 60});
   }
-  panel.label_x("0 m", format_text("%.0f m", top_m));
-  panel.label_y(format_text("up to %d", most));
+  panel.label_x("0 m", fmt::format("{:.0f} m", top_m));
+  panel.label_y(fmt::format("up to {}", most));
 }
 
 void draw_density(const cv::Mat& picture, const DatasetStatistics& s) {
@@ -82,8 +82,8 @@ void draw_density(const cv::Mat& picture, const DatasetStatistics& s) {
   PlotPoints points = {{0, 0}};
   points.insert(points.end(), s.density.begin(), s.density.end());
   panel.line(points, {40, 40, 220});
-  panel.label_x("0 s", format_text("%.1f s", end_s));
-  panel.label_y(format_text("up to %.1f %%", 100 * most));
+  panel.label_x("0 s", fmt::format("{:.1f} s", end_s));
+  panel.label_y(fmt::format("up to {:.1f} %", 100 * most));
 }
 
 void draw_coverage(const cv::Mat& picture, const DatasetStatistics& s) {
@@ -117,21 +117,22 @@ DatasetStatistics measure_dataset(const std::filesystem::path& dir, const Datase
 }
 
 std::string format_statistics(const DatasetStatistics& s) {
-  std::string text = format_text("%-24s %8s\n", "height above take-off", "samples");
+  std::string text = fmt::format("{:24} {:>8}\n", "height above take-off", "samples");
   for (std::size_t i = 0; i < s.heights.size(); ++i) {
     const double from_m = s.height_step_m * static_cast<double>(i);
     if (s.heights[i] > 0)
-      text += format_text("%8.0f .. %-6.0f m       %8d\n", from_m, from_m + s.height_step_m, s.heights[i]);
+      text +=
+          fmt::format("{:>8.0f} .. {:<6.0f} m       {:8}\n", from_m, from_m + s.height_step_m, s.heights[i]);
   }
-  if (s.unknown_heights > 0) text += format_text("%-24s %8d\n", "unknown", s.unknown_heights);
-  text += format_text("\n%-24s %8s\n", "accumulated after image", "pixels");
+  if (s.unknown_heights > 0) text += fmt::format("{:24} {:8}\n", "unknown", s.unknown_heights);
+  text += fmt::format("\n{:24} {:>8}\n", "accumulated after image", "pixels");
   for (const auto& [t_s, share] : s.density)
-    text += format_text("%8.1f s               %8.2f %%\n", t_s, 100 * share);
-  text += format_text(
-      "\npixels with depth over the whole window: %.2f %% in the median sample, %.2f to %.2f %% in eight of "
-      "ten\n",
+    text += fmt::format("{:>8.1f} s               {:>8.2f} %\n", t_s, 100 * share);
+  text += fmt::format(
+      "\npixels with depth over the whole window: {:.2f} % in the median sample, {:.2f} to {:.2f} % in eight "
+      "of ten\n",
       100 * s.covered_median, 100 * s.covered_tenth, 100 * s.covered_ninetieth);
-  text += format_text("(depth maps of %d of %d samples, evenly spread)\n", s.measured, s.samples);
+  text += fmt::format("(depth maps of {} of {} samples, evenly spread)\n", s.measured, s.samples);
   return text;
 }
 

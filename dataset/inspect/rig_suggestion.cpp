@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "foundation/config_reader.hpp"
 #include "geometry/frames.hpp"
@@ -16,43 +17,35 @@ namespace {
 constexpr double kOtherClock_s = 10;
 const std::string kCompressed = "/compressed";
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 std::string describe(const CameraImage& image) {
-  return format("%dx%d pixels, %s", image.image.cols, image.image.rows,
-                image.image.channels() == 1 ? "grey" : "colour");
+  return fmt::format("{}x{} pixels, {}", image.image.cols, image.image.rows,
+                     image.image.channels() == 1 ? "grey" : "colour");
 }
 
 std::string describe(const LidarPacket& packet) {
-  if (packet.returns.empty())
-    return format("no echo among %lld points", static_cast<long long>(packet.dropped));
+  if (packet.returns.empty()) return fmt::format("no echo among {} points", packet.dropped);
   const auto [first, last] =
       std::minmax_element(packet.returns.begin(), packet.returns.end(),
                           [](const LidarReturn& a, const LidarReturn& b) { return a.t_ns < b.t_ns; });
-  return format("%zu points from %+.4f to %+.4f s of the stamp, %lld without echo or out of range",
-                packet.returns.size(), to_seconds(first->t_ns - packet.t_ns),
-                to_seconds(last->t_ns - packet.t_ns), static_cast<long long>(packet.dropped));
+  return fmt::format("{} points from {:+.4f} to {:+.4f} s of the stamp, {} without echo or out of range",
+                     packet.returns.size(), to_seconds(first->t_ns - packet.t_ns),
+                     to_seconds(last->t_ns - packet.t_ns), packet.dropped);
 }
 
 std::string describe(const AttitudeSample& sample) {
   const Eigen::Quaterniond& q = sample.q_world_imu;
-  return format("w %.3f, x %.3f, y %.3f, z %.3f", q.w(), q.x(), q.y(), q.z());
+  return fmt::format("w {:.3f}, x {:.3f}, y {:.3f}, z {:.3f}", q.w(), q.x(), q.y(), q.z());
 }
 
 std::string describe(const PositionSample& sample) {
   if (const auto* p = std::get_if<Eigen::Vector3d>(&sample.position))
-    return format("x %.2f, y %.2f, z %.2f m", p->x(), p->y(), p->z());
+    return fmt::format("x {:.2f}, y {:.2f}, z {:.2f} m", p->x(), p->y(), p->z());
   const auto& fix = std::get<GeodeticPosition>(sample.position);
-  return format("latitude %.6f, longitude %.6f deg, altitude %.1f m", fix.latitude_deg, fix.longitude_deg,
-                fix.altitude_m);
+  return fmt::format("latitude {:.6f}, longitude {:.6f} deg, altitude {:.1f} m", fix.latitude_deg,
+                     fix.longitude_deg, fix.altitude_m);
 }
 
-std::string describe(const HeightSample& sample) { return format("%.2f m", sample.height_m); }
+std::string describe(const HeightSample& sample) { return fmt::format("{:.2f} m", sample.height_m); }
 
 const char* lens_name(DistortionModel model) {
   if (model == DistortionModel::kNone) return "none";
@@ -61,8 +54,8 @@ const char* lens_name(DistortionModel model) {
 
 std::string describe(const CameraDescription& description) {
   const PinholeIntrinsics& k = description.camera.intrinsics;
-  return format("%dx%d pixels, f %.2f %.2f, c %.2f %.2f px, %s", k.width_px, k.height_px, k.fx_px, k.fy_px,
-                k.cx_px, k.cy_px, lens_name(description.camera.distortion_model));
+  return fmt::format("{}x{} pixels, f {:.2f} {:.2f}, c {:.2f} {:.2f} px, {}", k.width_px, k.height_px,
+                     k.fx_px, k.fy_px, k.cx_px, k.cy_px, lens_name(description.camera.distortion_model));
 }
 
 std::vector<const TopicReport*> serving(const BagReport& report, LogRole role) {
@@ -146,7 +139,8 @@ std::string quoted(const std::string& topic) { return config_detail::write(topic
 
 std::string stamp_line(const TopicReport& topic, const std::string& key) {
   if (!topic.offset || std::abs(topic.offset->median_s) < kOtherClock_s) return "";
-  return key + format(": receive  # stamps are %.1f s from the receive times\n", -topic.offset->median_s);
+  return key +
+         fmt::format(": receive  # stamps are {:.1f} s from the receive times\n", -topic.offset->median_s);
 }
 
 std::string camera_lines(const BagReport& report, const TopicReport& image, bool right) {
@@ -173,8 +167,9 @@ std::string camera_lines(const BagReport& report, const TopicReport& image, bool
 std::string lidar_lines(const TopicReport& lidar) {
   std::string text = "lidar0:\n  T_cam_lidar: FILL_IN  # lidar -> cam0\n";
   if (lidar.serves_as(LogRole::kLidar)->needs_scan_period) {
-    text += format("  scan_period_s: %.4g  # points have no time; the period is that of the messages\n",
-                   lidar.rate_hz() > 0 ? 1 / lidar.rate_hz() : 0.0);
+    text +=
+        fmt::format("  scan_period_s: {:.4g}  # points have no time; the period is that of the messages\n",
+                    lidar.rate_hz() > 0 ? 1 / lidar.rate_hz() : 0.0);
   }
   return text + stamp_line(lidar, "  stamp") + "  rostopic: " + quoted(lidar.topic) + "\n";
 }

@@ -1,9 +1,9 @@
 #include "dataset/inspect/sample_picture.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/depth_map.hpp"
@@ -56,13 +56,6 @@ cv::Mat labelled(const cv::Mat& panel, const std::string& label) {
   return out;
 }
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof(buffer), format, values...);
-  return buffer;
-}
-
 }  // namespace
 
 cv::Mat draw_sample(const Sample& sample, const std::string& title) {
@@ -73,14 +66,14 @@ cv::Mat draw_sample(const Sample& sample, const std::string& title) {
   cv::minMaxLoc(sample.sparse.offset_us, &min_us, &max_us);
   const double limit_s = std::max({1e-3, -min_us * 1e-6, max_us * 1e-6});
 
-  const std::string scale = text("%.1f m red .. %.1f m blue", depth.min_m, depth.max_m);
+  const std::string scale = fmt::format("{:.1f} m red .. {:.1f} m blue", depth.min_m, depth.max_m);
   std::vector<cv::Mat> panels = {
       labelled(to_bgr(sample.left), title),
       labelled(over_image(sample.left, colour_depth(sample.sparse.depth_m, depth.min_m, depth.max_m), known),
-               text("sparse depth, %d pixels, ", cv::countNonZero(known)) + scale),
-      labelled(
-          over_image(sample.left, colour_offsets(sample.sparse, limit_s), known),
-          text("time offset, %.2f s before (blue) .. %.2f s after (red)", -min_us * 1e-6, max_us * 1e-6))};
+               fmt::format("sparse depth, {} pixels, ", cv::countNonZero(known)) + scale),
+      labelled(over_image(sample.left, colour_offsets(sample.sparse, limit_s), known),
+               fmt::format("time offset, {:.2f} s before (blue) .. {:.2f} s after (red)", -min_us * 1e-6,
+                           max_us * 1e-6))};
   if (!sample.dense_m.empty()) {
     panels.push_back(
         labelled(colour_depth(sample.dense_m, depth.min_m, depth.max_m), "true depth, " + scale));

@@ -3,10 +3,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "foundation/csv_line.hpp"
@@ -23,9 +23,7 @@ constexpr const char* kSamplesHeader =
     "index,t_ns,x_m,y_m,z_m,qw,qx,qy,qz,previous,next,points,pixels,height_m";
 
 fs::path picture_path(const fs::path& dir, const FlightEntry& flight, const char* folder, int index) {
-  std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "%06d.png", index);
-  return dir / flight.name / folder / name.data();
+  return dir / flight.name / folder / fmt::format("{:06}.png", index);
 }
 
 /// An 8-bit grey or colour picture (type CV_8U) or a 16-bit map (CV_16U) of the data set's size.
@@ -55,25 +53,13 @@ void expect_size(const cv::Mat& picture, cv::Size size, const fs::path& path) {
                   "x" + std::to_string(size.height));
 }
 
-void append(std::string& line, const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  line += text.data();
-  line += ',';
-}
-
 std::string format_row(const SampleRow& row) {
-  std::string line = std::to_string(row.index) + "," + std::to_string(row.t_ns) + ",";
   const Eigen::Vector3d p = row.T_world_camera.translation();
   const Eigen::Quaterniond q(row.T_world_camera.linear());
-  for (const double value : {p.x(), p.y(), p.z()}) append(line, "%.6f", value);
-  for (const double value : {q.w(), q.x(), q.y(), q.z()}) append(line, "%.12f", value);
-  for (const int value : {row.previous, row.next, row.points, row.pixels})
-    line += std::to_string(value) + ",";
-  if (std::isnan(row.height_m)) return line + "nan\n";
-  append(line, "%.3f", row.height_m);
-  line.back() = '\n';
-  return line;
+  return fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.12f},{:.12f},{:.12f},{:.12f},{},{},{},{},{}\n", row.index,
+                     row.t_ns, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), row.previous, row.next,
+                     row.points, row.pixels,
+                     std::isnan(row.height_m) ? "nan" : fmt::format("{:.3f}", row.height_m));
 }
 
 SampleRow parse_row(CsvLine line) {

@@ -1,7 +1,6 @@
 #include "sim/record/board_recorder.hpp"
 
-#include <cstdio>
-
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "foundation/output_folder.hpp"
@@ -137,8 +136,7 @@ std::vector<fs::path> record_boards(const BoardSceneConfig& config, const fs::pa
   std::vector<fs::path> bags;
   ProgressBar progress("boards", static_cast<std::int64_t>(poses.size()), "scenes");
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    char name[32];
-    std::snprintf(name, sizeof(name), "board_%02zu.bag", i);
+    const std::string name = fmt::format("board_{:02}.bag", i);
     BoardScene(config, rig, rectified, static_cast<int>(i), poses[i]).write(folder.partial() / name);
     bags.push_back(output / name);
     progress.advance();

@@ -1,9 +1,9 @@
 #include "sim/record/truth_writer.hpp"
 
-#include <array>
-#include <cstdio>
 #include <sstream>
 #include <system_error>
+
+#include <fmt/format.h>
 
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
@@ -54,11 +54,9 @@ void TruthWriter::write_trajectory(const SimulatedFlight& flight, double rate_hz
     const Eigen::Isometry3d T = flight.T_world_imu(to_seconds(t_ns));
     Eigen::Quaterniond q(T.linear());
     if (q.w() < 0) q.coeffs() = -q.coeffs();
-    std::array<char, 256> row{};
-    std::snprintf(row.data(), row.size(), "%lld,%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f\n",
-                  static_cast<long long>(start_ns + t_ns), T.translation().x(), T.translation().y(),
-                  T.translation().z(), q.w(), q.x(), q.y(), q.z());
-    text += row.data();
+    text += fmt::format("{},{:.9f},{:.9f},{:.9f},{:.12f},{:.12f},{:.12f},{:.12f}\n", start_ns + t_ns,
+                        T.translation().x(), T.translation().y(), T.translation().z(), q.w(), q.x(), q.y(),
+                        q.z());
   }
   write_file_atomically(folder_ / "trajectory.csv", text);
 }

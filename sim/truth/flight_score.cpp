@@ -1,12 +1,11 @@
 #include "sim/truth/flight_score.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <optional>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -71,15 +70,11 @@ void count(const ResultLine& line, double share, bool centre_safe, SiteCounts& c
 }
 
 std::string row(const std::string& name, const SiteCounts& counts) {
-  std::array<char, 160> text{};
   const double percent = counts.accepted > 0
                              ? 100.0 * static_cast<double>(counts.safe) / static_cast<double>(counts.accepted)
                              : 0;
-  std::snprintf(text.data(), text.size(), "%-10s %7lld %7lld %9lld %9lld %8.1f %14lld %14lld\n", name.c_str(),
-                static_cast<long long>(counts.frames), static_cast<long long>(counts.sites),
-                static_cast<long long>(counts.accepted), static_cast<long long>(counts.safe), percent,
-                static_cast<long long>(counts.unsafe_centre), static_cast<long long>(counts.unsafe_circle));
-  return text.data();
+  return fmt::format("{:10} {:7} {:7} {:9} {:9} {:>8.1f} {:14} {:14}\n", name, counts.frames, counts.sites,
+                     counts.accepted, counts.safe, percent, counts.unsafe_centre, counts.unsafe_circle);
 }
 
 }  // namespace
@@ -136,10 +131,8 @@ FlightScore score_flight(const fs::path& truth, const fs::path& results) {
 }
 
 std::string format_score(const FlightScore& score) {
-  std::array<char, 160> title{};
-  std::snprintf(title.data(), title.size(), "%-10s %7s %7s %9s %9s %8s %14s %14s\n", "source", "frames",
-                "sites", "accepted", "safe", "safe %", "unsafe centre", "unsafe circle");
-  std::string text = title.data();
+  std::string text = fmt::format("{:10} {:>7} {:>7} {:>9} {:>9} {:>8} {:>14} {:>14}\n", "source", "frames",
+                                 "sites", "accepted", "safe", "safe %", "unsafe centre", "unsafe circle");
   for (const auto& [source, counts] : score.by_source) text += row(source, counts);
   return text + row("all", score.all);
 }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "foundation/config_reader.hpp"
 #include "geometry/frames.hpp"
@@ -76,11 +77,7 @@ std::optional<Eigen::Vector3d> nearest_site(const FlightPlanConfig& config, cons
   return best;
 }
 
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof(buffer), "%.1f", value);
-  return buffer;
-}
+std::string text(double value) { return fmt::format("{:.1f}", value); }
 
 std::string place(const Eigen::Vector3d& p) { return "(" + text(p.x()) + ", " + text(p.y()) + ")"; }
 
