@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "foundation/errors.hpp"
@@ -70,16 +70,12 @@ double network_gflop(const DepthCompletionConfig& model, const Batch& batch) {
 }
 
 std::string row(const char* name, const Spread& s, const char* unit) {
-  char line[120];
-  std::snprintf(line, sizeof line, "%-34s %9.2f  (%.2f .. %.2f) %s\n", name, s.median, s.min, s.max, unit);
-  return line;
+  return fmt::format("{:34} {:>9.2f}  ({:.2f} .. {:.2f}) {}\n", name, s.median, s.min, s.max, unit);
 }
 
 std::string json_field(const char* name, const Spread& s) {
-  char text[160];
-  std::snprintf(text, sizeof text, "\"%s\": {\"min\": %.6g, \"median\": %.6g, \"max\": %.6g}, ", name, s.min,
-                s.median, s.max);
-  return text;
+  return fmt::format("\"{}\": {{\"min\": {:.6g}, \"median\": {:.6g}, \"max\": {:.6g}}}, ", name, s.min,
+                     s.median, s.max);
 }
 
 }  // namespace
@@ -97,21 +93,19 @@ double TrainingBenchmark::convolution_share() const {
 }
 
 std::string TrainingBenchmark::table() const {
-  char rest[320];
-  std::snprintf(rest, sizeof rest,
-                "%-34s %9.0f  MB\n%-34s %9.3f  GFLOP an image\n%-34s %9.1f  %% of the convolution's speed\n",
-                "most resident memory", peak_memory_mb, "network, forward", network_gflop,
-                "step, fixed batch", 100 * convolution_share());
+  const std::string rest = fmt::format(
+      "{:34} {:>9.0f}  MB\n{:34} {:>9.3f}  GFLOP an image\n{:34} {:>9.1f}  % of the convolution's speed\n",
+      "most resident memory", peak_memory_mb, "network, forward", network_gflop, "step, fixed batch",
+      100 * convolution_share());
   return row("steps with loading", loading_images_per_s, "images/s") +
          row("steps on a fixed batch", fixed_images_per_s, "images/s") +
          row("3x3 convolution, both directions", convolution_gflop_per_s, "GFLOP/s") + rest;
 }
 
 std::string TrainingBenchmark::json() const {
-  char rest[160];
-  std::snprintf(rest, sizeof rest,
-                "\"peak_memory_mb\": %.6g, \"network_gflop\": %.6g, \"convolution_share\": %.6g}\n",
-                peak_memory_mb, network_gflop, convolution_share());
+  const std::string rest =
+      fmt::format("\"peak_memory_mb\": {:.6g}, \"network_gflop\": {:.6g}, \"convolution_share\": {:.6g}}}\n",
+                  peak_memory_mb, network_gflop, convolution_share());
   return "{" + json_field("loading_images_per_s", loading_images_per_s) +
          json_field("fixed_images_per_s", fixed_images_per_s) +
          json_field("convolution_gflop_per_s", convolution_gflop_per_s) + rest;

@@ -1,8 +1,8 @@
 #include "train/trainer.hpp"
 
 #include <cmath>
-#include <cstdio>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "foundation/config_reader.hpp"
@@ -18,11 +18,7 @@ namespace {
 constexpr std::size_t kTerms = 5;
 constexpr char kProvenanceFile[] = "provenance.yaml";
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 DepthCompletionNet make_network(const TrainConfig& config, torch::Device device, const ProcessGroup& group) {
   set_threads(config.compute.threads, group.place().local_size);
@@ -57,17 +53,11 @@ std::vector<double> values(const LossTerms& terms) {
 }
 
 std::string describe(const std::vector<double>& l) {
-  char text[128];
-  std::snprintf(text, sizeof text, "loss %.4f (depth %.4f ratio %.4f photo %.4f smooth %.4f)", l[4], l[0],
-                l[1], l[2], l[3]);
-  return text;
+  return fmt::format("loss {:.4f} (depth {:.4f} ratio {:.4f} photo {:.4f} smooth {:.4f})", l[4], l[0], l[1],
+                     l[2], l[3]);
 }
 
-std::string epoch_file(int epoch) {
-  char name[32];
-  std::snprintf(name, sizeof name, "epoch_%04d.pt", epoch);
-  return name;
-}
+std::string epoch_file(int epoch) { return fmt::format("epoch_{:04}.pt", epoch); }
 
 }  // namespace
 
@@ -183,8 +173,7 @@ void Trainer::train_epoch(int epoch) {
   const std::int64_t images_a_step = static_cast<std::int64_t>(c.batch_size) * config_.optimizer.accumulate;
   BatchLoader batches =
       loader(epoch, static_cast<std::size_t>(progress_.epoch_step * config_.optimizer.accumulate));
-  char label[48];
-  std::snprintf(label, sizeof label, "epoch %d/%d", epoch, c.epochs);
+  const std::string label = fmt::format("epoch {}/{}", epoch, c.epochs);
   std::optional<ProgressBar> bar;
   if (writes()) bar.emplace(label, (steps - progress_.epoch_step) * images_a_step, "images");
   net_->train();

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "foundation/config_reader.hpp"
 #include "models/depth_conversion.hpp"
@@ -90,24 +91,16 @@ ValidationReport empty_report(const ValidationConfig& config) {
     report.network.push_back({name, share, window_s, {}, {}, {}});
     report.fill.push_back({"fill " + name, share, window_s, {}, {}, {}});
   };
-  char name[32];
-  for (const double share : config.shares) {
-    std::snprintf(name, sizeof name, "P=%g", share);
-    add_rows(name, share, 0);
-  }
-  for (const double window_s : config.windows_s) {
-    std::snprintf(name, sizeof name, "%gs", window_s);
-    add_rows(name, std::nan(""), window_s);
-  }
+  for (const double share : config.shares) add_rows(fmt::format("P={:g}", share), share, 0);
+  for (const double window_s : config.windows_s)
+    add_rows(fmt::format("{:g}s", window_s), std::nan(""), window_s);
   report.altitude_plane.name = "altitude plane";
   return report;
 }
 
 std::string cell(const ErrorMeter& meter) {
   if (meter.pixels() == 0) return "         -";
-  char text[32];
-  std::snprintf(text, sizeof text, "%10.1f", meter.rmse_mm());
-  return text;
+  return fmt::format("{:>10.1f}", meter.rmse_mm());
 }
 
 }  // namespace
@@ -133,9 +126,8 @@ const ValidationRow& ValidationReport::fill_at(double share) const { return near
 std::string ValidationReport::table() const {
   std::string text = "RMSE [mm]       LiDAR pixels  not fed of them  dense truth\n";
   const auto row_text = [&](const ValidationRow& row) {
-    char name[32];
-    std::snprintf(name, sizeof name, "%-18s", row.name.c_str());
-    text += name + cell(row.ground_truth) + "     " + cell(row.held_out) + "   " + cell(row.dense) + "\n";
+    text += fmt::format("{:18}{}     {}   {}\n", row.name, cell(row.ground_truth), cell(row.held_out),
+                        cell(row.dense));
   };
   for (const ValidationRow& row : network) row_text(row);
   for (const ValidationRow& row : fill) {
@@ -147,13 +139,9 @@ std::string ValidationReport::table() const {
 
 std::string ValidationReport::summary() const {
   std::string text;
-  char cell[64];
-  for (const ValidationRow& row : network) {
-    std::snprintf(cell, sizeof cell, " %s %.0f", row.name.c_str(), row.ground_truth.rmse_mm());
-    text += cell;
-  }
-  std::snprintf(cell, sizeof cell, ", altitude plane %.0f", altitude_plane.ground_truth.rmse_mm());
-  return text + cell;
+  for (const ValidationRow& row : network)
+    text += fmt::format(" {} {:.0f}", row.name, row.ground_truth.rmse_mm());
+  return text + fmt::format(", altitude plane {:.0f}", altitude_plane.ground_truth.rmse_mm());
 }
 
 std::vector<std::size_t> spread(std::size_t size, int count) {

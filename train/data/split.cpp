@@ -1,8 +1,9 @@
 #include "train/data/split.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "foundation/config_reader.hpp"
 
@@ -82,13 +83,10 @@ SampleSplit choose(const std::vector<SampleTime>& samples, const SplitConfig& co
 
 std::string leak_through_gap(const SplitConfig& config, double window_s) {
   if (config.held_out_blocks.empty() || config.gap_s >= window_s) return {};
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "split.gap_s: %g s is less than the %g s over which a depth map of this data set collects "
-                "LiDAR points: "
-                "held-out maps share points with those learned from; set it to %g or more",
-                config.gap_s, window_s, window_s);
-  return text;
+  return fmt::format(
+      "split.gap_s: {:g} s is less than the {:g} s over which a depth map of this data set collects LiDAR "
+      "points: held-out maps share points with those learned from; set it to {:g} or more",
+      config.gap_s, window_s, window_s);
 }
 
 }  // namespace alight

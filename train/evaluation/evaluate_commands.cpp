@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "foundation/output_folder.hpp"
 #include "foundation/progress_bar.hpp"
 #include "foundation/shipped_files.hpp"
@@ -62,9 +64,7 @@ std::vector<std::pair<std::string, std::string>> about(const EvaluateOptions& op
                                                          {"every n-th sample", std::to_string(config.every)}};
   std::string blocks;
   for (const auto& block : config.split.held_out_blocks) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%s%g to %g", blocks.empty() ? "" : ", ", block[0], block[1]);
-    blocks += text;
+    blocks += fmt::format("{}{:g} to {:g}", blocks.empty() ? "" : ", ", block[0], block[1]);
   }
   switch (config.part) {
     case EvaluatedPart::kAll:

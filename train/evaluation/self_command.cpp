@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "foundation/command_line.hpp"
@@ -97,11 +98,7 @@ std::string command_line(const SelfOptions& options) {
   add("--config", options.config);
   add("--good", joined(options.good));
   std::vector<std::string> windows;
-  for (const double window_s : options.windows_s) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", window_s);
-    windows.emplace_back(text);
-  }
+  for (const double window_s : options.windows_s) windows.push_back(fmt::format("{:g}", window_s));
   add("--windows", joined(windows));
   add("--output", options.output);
   add("--figure", options.figure);

@@ -1,8 +1,8 @@
 #include "train/evaluation/table.hpp"
 
 #include <cmath>
-#include <cstdio>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "foundation/errors.hpp"
@@ -17,9 +17,7 @@ using Json = nlohmann::ordered_json;
 /// Six significant digits are finer than any of it is known.
 std::string figure(double value) {
   if (std::isnan(value)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+  return fmt::format("{:.6g}", value);
 }
 
 Json json_number(double value) { return std::isnan(value) ? Json(nullptr) : Json(std::stod(figure(value))); }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
+
+#include <fmt/format.h>
+
 
 namespace alight {
 namespace {
@@ -17,13 +19,10 @@ using CellOf = std::function<CellText(const EvaluationCell&)>;
 
 std::string to_text(const CellText& cell, int digits) {
   if (std::isnan(cell.mean.mean)) return "-";
-  char text[64];
-  if (std::isnan(cell.mean.standard_error)) {
-    std::snprintf(text, sizeof text, "%.*f", digits, cell.mean.mean);
-  } else {
-    std::snprintf(text, sizeof text, "%.*f ± %.*f", digits, cell.mean.mean, digits, cell.mean.standard_error);
-  }
-  return text + std::string(cell.substituted ? " *" : "");
+  std::string text = fmt::format("{:.{}f}", cell.mean.mean, digits);
+  if (!std::isnan(cell.mean.standard_error))
+    text += fmt::format(" ± {:.{}f}", cell.mean.standard_error, digits);
+  return text + (cell.substituted ? " *" : "");
 }
 
 std::string grid(const EvaluationReport& report, const std::string& corner, int digits, bool shares_only,

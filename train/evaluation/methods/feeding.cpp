@@ -1,15 +1,13 @@
 #include "train/evaluation/methods/feeding.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "train/data/density_sampling.hpp"
 
 namespace alight {
 
 std::string Feeding::name() const {
-  char text[32];
-  std::snprintf(text, sizeof text, kind == Kind::kShare ? "P=%g" : "%g s", amount);
-  return text;
+  return kind == Kind::kShare ? fmt::format("P={:g}", amount) : fmt::format("{:g} s", amount);
 }
 
 std::vector<Feeding> make_feedings(const std::vector<double>& shares, const std::vector<double>& windows_s) {

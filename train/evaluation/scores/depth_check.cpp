@@ -1,6 +1,6 @@
 #include "train/evaluation/scores/depth_check.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "geometry/crop.hpp"
 #include "geometry/frames.hpp"
@@ -47,15 +47,9 @@ cv::Mat lidar_fov(const cv::Mat& sparse_m, const RectifiedRig& rig, bool has_lid
   return lidar_fov_mask(rig.intrinsics, rig.T_camera_lidar, to_radians(half_fov_deg), depth_m);
 }
 
-template <class... Values>
-std::string line(const char* format, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
-
 std::string score_line(const char* name, const std::optional<double>& value, const char* meaning) {
-  return value ? line("%-10s %.4f  %s\n", name, *value, meaning) : line("%-10s -       %s\n", name, meaning);
+  return value ? fmt::format("{:10} {:.4f}  {}\n", name, *value, meaning)
+               : fmt::format("{:10} -       {}\n", name, meaning);
 }
 
 }  // namespace
@@ -88,14 +82,13 @@ std::string format_check(const DepthCheckResult& result) {
   text += score_line("sim_pred", scores.sim_pred, "left image moved by the depth map");
   text += score_line("share", scores.share, "of the image compared");
   text += score_line("peak", scores.peak, "sim_pred above that of nearer and farther depth");
-  text += line("%-10s %s\n", "paper", result.paper_accepts ? "accept" : "reject");
-  text += line("%-10s %s\n", "verdict", name(result.verdict));
+  text += fmt::format("{:10} {}\n", "paper", result.paper_accepts ? "accept" : "reject");
+  text += fmt::format("{:10} {}\n", "verdict", name(result.verdict));
   if (!result.errors) return text;
   for (const Metric metric : kMetrics)
-    text += line("%-18s %.2f\n", title(metric), result.errors->value(metric));
-  text +=
-      line("%-18s %lld, %lld more have no depth\n", "pixels compared",
-           static_cast<long long>(result.errors->pixels()), static_cast<long long>(result.errors->unknown()));
+    text += fmt::format("{:18} {:.2f}\n", title(metric), result.errors->value(metric));
+  text += fmt::format("{:18} {}, {} more have no depth\n", "pixels compared", result.errors->pixels(),
+                      result.errors->unknown());
   return text;
 }
 

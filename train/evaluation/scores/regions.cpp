@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "foundation/config_reader.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/depth_map.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/projection.hpp"
@@ -69,13 +69,13 @@ std::string describe(Region region, const RegionConfig& c) {
     case Region::kDense:
       return "every pixel with true depth (simulated flights)";
     case Region::kInsideFov:
-      return format_text(
-          "truth inside the LiDAR's field of view at the time of the image, %g deg around its boresight",
+      return fmt::format(
+          "truth inside the LiDAR's field of view at the time of the image, {:g} deg around its boresight",
           c.lidar_half_fov_deg);
     case Region::kOutsideFov:
       return "truth outside the LiDAR's field of view at the time of the image";
     case Region::kNearEdges:
-      return format_text("truth within %d px of a step of more than %g m and %g %% (simulated flights)",
+      return fmt::format("truth within {} px of a step of more than {:g} m and {:g} % (simulated flights)",
                          c.edge_distance_px, c.edge_step_m, 100 * c.edge_step_share);
     case Region::kBelow10m:
       return "truth of images whose median depth is below 10 m";

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "foundation/order_statistics.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/depth_map.hpp"
 #include "infer/replay/overlay.hpp"
 #include "pictures/picture_file.hpp"
@@ -54,7 +54,7 @@ Panel error_panel(const cv::Mat& predicted_m, const cv::Mat& truth_m) {
   const double limit_m = std::max(0.01, percentile(error_m, known, 0.99));
   cv::Mat image;
   cv::hconcat(colour_errors(error_m, known, limit_m), scale_bar(truth_m.rows), image);
-  return {format_text("error: 0 (dark) to %.2f m", limit_m), image};
+  return {fmt::format("error: 0 (dark) to {:.2f} m", limit_m), image};
 }
 
 ErrorPicture picture_of(const SampleError& sample_error, const DepthMethod& method, SampleSource& source,
@@ -62,7 +62,7 @@ ErrorPicture picture_of(const SampleError& sample_error, const DepthMethod& meth
   const std::size_t index = sample_error.item.index;
   const DepthSample sample = source.get(index);
   const torch::Tensor fed_m = feed(sample, feeding, static_cast<std::uint64_t>(config.seed) + index);
-  return {format_text("%s: %.0f mm", sample_error.item.flight.c_str(), sample_error.rmse_mm),
+  return {fmt::format("{}: {:.0f} mm", sample_error.item.flight, sample_error.rmse_mm),
           tensor_to_image(sample.left), tensor_to_depth(fed_m),
           tensor_to_depth(method.complete(sample, fed_m)),
           tensor_to_depth(sample.dense.defined() ? sample.dense : sample.sparse)};
@@ -77,9 +77,9 @@ cv::Mat draw_errors(const ErrorPicture& picture) {
   const auto depth = [&](const cv::Mat& depth_m) { return colour_depth(depth_m, min_m, max_m); };
   return panel_strip(
       {{picture.title, picture.left},
-       {format_text("fed: %d points", cv::countNonZero(picture.fed_m)), depth(picture.fed_m)},
+       {fmt::format("fed: {} points", cv::countNonZero(picture.fed_m)), depth(picture.fed_m)},
        {"prediction", depth(picture.predicted_m)},
-       {format_text("truth: %.1f (red) to %.1f m (blue)", min_m, max_m), depth(picture.truth_m)},
+       {fmt::format("truth: {:.1f} (red) to {:.1f} m (blue)", min_m, max_m), depth(picture.truth_m)},
        error_panel(picture.predicted_m, picture.truth_m)});
 }
 
@@ -96,8 +96,7 @@ void write_worst_samples(const EvaluationReport& report, const DepthMethod& firs
       std::find_if(report.feedings.begin(), report.feedings.end(),
                    [&](const Feeding& candidate) { return candidate.name() == config.picture_feeding; });
   for (std::size_t i = 0; i < worst.size(); ++i) {
-    const std::string file =
-        format_text("%02zu_%s_%zu.png", i + 1, worst[i].item.flight.c_str(), worst[i].item.index);
+    const std::string file = fmt::format("{:02}_{}_{}.png", i + 1, worst[i].item.flight, worst[i].item.index);
     write_picture(dir / file, draw_errors(picture_of(worst[i], first_method, source, config, *feeding)));
   }
 }

@@ -4,16 +4,19 @@
 #include <functional>
 #include <map>
 
-#include "foundation/text_format.hpp"
+#include <fmt/format.h>
 
 namespace alight {
 namespace {
 
-std::string percent(double share) { return std::isfinite(share) ? format_text("%.1f %%", 100 * share) : "-"; }
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "-";
+}
 
 std::string describe(const GoodDepth& good) {
-  return format_text(
-      "%g %% of the pixels with true depth err by no more than %g m or %g %% of the depth, whichever is more",
+  return fmt::format(
+      "{:g} % of the pixels with true depth err by no more than {:g} m or {:g} % of the depth, whichever is "
+      "more",
       100 * good.share, good.error_m, 100 * good.error_relative);
 }
 
@@ -24,14 +27,14 @@ std::size_t count_good(const MapList& maps, std::size_t definition) {
 }
 
 std::string count_text(const MapList& maps, std::size_t definition = 0) {
-  return format_text("%zu maps, %zu of them good", maps.size(), count_good(maps, definition));
+  return fmt::format("{} maps, {} of them good", maps.size(), count_good(maps, definition));
 }
 
 std::string area_text(const FlightCases& cases) {
   const auto area = area_under_roc(pooled(cases));
   if (!area) return "-";
   const auto error = area_standard_error(cases);
-  return error ? format_text("%.3f ± %.3f", *area, *error) : format_text("%.3f", *area);
+  return error ? fmt::format("{:.3f} ± {:.3f}", *area, *error) : fmt::format("{:.3f}", *area);
 }
 
 std::string criteria_table(const SelfReport& report, const MapList& maps, std::size_t definition = 0) {
@@ -43,7 +46,7 @@ std::string criteria_table(const SelfReport& report, const MapList& maps, std::s
     int silent = 0;
     for (const ScoredCase& c : pooled(cases)) silent += std::isinf(c.score) ? 1 : 0;
     const auto rate = false_accept_rate_at(pooled(cases), 0.95);
-    table += format_text("| %s | %s | %s | %d |\n", criterion.title, area_text(cases).c_str(),
+    table += fmt::format("| {} | {} | {} | {} |\n", criterion.title, area_text(cases),
                          rate ? percent(*rate).c_str() : "-", silent);
   }
   return table + "\n";
@@ -78,7 +81,7 @@ std::string group_table(const SelfReport& report, const std::string& corner, con
   }
   std::string table = head + "\n" + rule + "\n";
   for (const auto& [group, maps] : groups) {
-    table += format_text("| %s | %zu | %zu |", group.c_str(), maps.size(), count_good(maps, 0));
+    table += fmt::format("| {} | {} | {} |", group, maps.size(), count_good(maps, 0));
     for (const Criterion& criterion : criteria()) {
       table += " " + area_text(cases_of(maps, criterion, report.config.image.self_evaluation)) + " |";
     }
@@ -120,7 +123,7 @@ std::string origin_table(const SelfReport& report, const MapList& all) {
   std::string head = "| good maps |";
   std::string rule = "|---|";
   for (const double window_s : report.config.windows_s) {
-    head += format_text(" %g s |", window_s);
+    head += fmt::format(" {:g} s |", window_s);
     rule += "---:|";
   }
   std::string table = head + "\n" + rule + "\n";
@@ -131,7 +134,7 @@ std::string origin_table(const SelfReport& report, const MapList& all) {
       for (const MapScores* map : maps) {
         if (map->window_s == window_s) cell.push_back(map);
       }
-      table += format_text(" %zu of %zu |", count_good(cell, 0), cell.size());
+      table += fmt::format(" {} of {} |", count_good(cell, 0), cell.size());
     }
     table += "\n";
   }
@@ -149,17 +152,16 @@ std::string head(const SelfReport& report, const MapList& all) {
          ". The lowest step that the site selection tells from flat ground is 9 cm, so 10 cm are the "
          "smallest error that "
          "makes or hides an obstacle\n";
-  out += format_text(
-      "- hold-out: the LiDAR points of the %g s after the fed window; sim_d is made from them and the fed "
-      "ones, "
-      "which the onboard loop has when it judges\n",
+  out += fmt::format(
+      "- hold-out: the LiDAR points of the {:g} s after the fed window; sim_d is made from them and the fed "
+      "ones, which the onboard loop has when it judges\n",
       config.holdout_s);
-  out += format_text(
+  out += fmt::format(
       "- wrong on purpose, besides the network's own maps (`network`): level ground at the reported height "
-      "(`altitude_plane`), the network told a height %g times as large (`wrong_height`), ",
+      "(`altitude_plane`), the network told a height {:g} times as large (`wrong_height`), ",
       config.height_factor);
-  out += format_text(
-      "its depth times %g (`too_far`) and times %g (`too_near`), linear interpolation of the fed points "
+  out += fmt::format(
+      "its depth times {:g} (`too_far`) and times {:g} (`too_near`), linear interpolation of the fed points "
       "(`delaunay`)\n\n",
       config.depth_factor, 2 - config.depth_factor);
   return out + "Columns: LiDAR time fed.\n\n" + origin_table(report, all);

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include <fmt/format.h>
 
 namespace alight {
 namespace {
@@ -53,9 +54,7 @@ Verdict by(const MapScores& map, const SelfEvaluationConfig&) {
 
 std::string number(double value) {
   if (!std::isfinite(value)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+  return fmt::format("{:.6g}", value);
 }
 
 std::string number(const std::optional<double>& value) { return value ? number(*value) : ""; }
