@@ -5,6 +5,8 @@
 #include <fstream>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "closed_loop/landing/land_config.hpp"
 #include "closed_loop/landing/landing_flight.hpp"
 #include "closed_loop/landing/landing_pictures.hpp"
@@ -59,10 +61,8 @@ LandConfig resolve(const LandOptions& options) {
 void write_track(const fs::path& path, const FlownLanding& flown) {
   std::string text = "t_s,x_m,y_m,z_m,state\n";
   for (const TrackPoint& point : flown.track) {
-    char line[128];
-    std::snprintf(line, sizeof line, "%.3f,%.4f,%.4f,%.4f,%s\n", point.t_s, point.p_world.x(),
-                  point.p_world.y(), point.p_world.z(), name(point.state));
-    text += line;
+    text += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{}\n", point.t_s, point.p_world.x(), point.p_world.y(),
+                        point.p_world.z(), name(point.state));
   }
   write_file_atomically(path, text);
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "foundation/order_statistics.hpp"
 
@@ -49,32 +50,23 @@ struct Counts {
 std::string share_text(int successes, int trials) {
   if (trials == 0) return "-";
   const Interval interval = wilson(successes, trials);
-  char text[80];
-  std::snprintf(text, sizeof text, "%.1f %% (%.1f to %.1f)", 100.0 * successes / trials, 100 * interval.low,
-                100 * interval.high);
-  return text;
+  return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * successes / trials, 100 * interval.low,
+                     100 * interval.high);
 }
 
-constexpr const char* kHead =
-    "| %s | landings | site within reach | landed safely where there was one (95 %%) | landed safely in all "
-    "| unsafe "
-    "touchdowns | collisions | gave up, site | gave up, no site | time to land, s (median, 90 %%) | "
-    "accumulation, s "
-    "|\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
-
 std::string head(const char* first) {
-  char text[512];
-  std::snprintf(text, sizeof text, kHead, first);
-  return text;
+  return fmt::format("| {} ", first) +
+         "| landings | site within reach | landed safely where there was one (95 %) | landed safely in all "
+         "| unsafe touchdowns | collisions | gave up, site | gave up, no site "
+         "| time to land, s (median, 90 %) | accumulation, s "
+         "|\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 }
 
 std::string row(const std::string& first, const Counts& c) {
-  char text[400];
-  std::snprintf(text, sizeof text, "| %s | %d | %d | %s | %d | %d | %d | %d | %d | %.0f, %.0f | %.2f |\n",
-                first.c_str(), c.landings, c.with_site, share_text(c.safe_with_site, c.with_site).c_str(),
-                c.safe, c.unsafe, c.collided, c.gave_up_with_site, c.gave_up_without_site, c.time_at(0.5),
-                c.time_at(0.9), c.landings > 0 ? c.accumulation_s / c.landings : 0);
-  return text;
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0f}, {:.0f} | {:.2f} |\n", first,
+                     c.landings, c.with_site, share_text(c.safe_with_site, c.with_site), c.safe, c.unsafe,
+                     c.collided, c.gave_up_with_site, c.gave_up_without_site, c.time_at(0.5), c.time_at(0.9),
+                     c.landings > 0 ? c.accumulation_s / c.landings : 0);
 }
 
 }  // namespace
@@ -104,17 +96,13 @@ std::string campaign_report(const std::vector<LandingResult>& rows, double wante
     page += "\n" + head("fault");
     for (const auto& [fault, counts] : by_fault) page += row(fault, counts);
   }
-  char text[400];
   const Interval unsafe = wilson(all.unsafe + all.collided, all.landings);
-  std::snprintf(
-      text, sizeof text,
-      "\nA site is within reach where the truth has safe ground of %.1f m radius inside the geofence. Unsafe "
-      "touchdowns and collisions: %d of %d landings, 95 %% interval %.2f to %.2f %%. %d touchdowns at a "
-      "least "
-      "bad site. Computing took %.1f s of a core a landing.\n",
+  page += fmt::format(
+      "\nA site is within reach where the truth has safe ground of {:.1f} m radius inside the geofence. "
+      "Unsafe touchdowns and collisions: {} of {} landings, 95 % interval {:.2f} to {:.2f} %. {} touchdowns "
+      "at a least bad site. Computing took {:.1f} s of a core a landing.\n",
       wanted_radius_m, all.unsafe + all.collided, all.landings, 100 * unsafe.low, 100 * unsafe.high,
       all.least_bad, all.landings > 0 ? all.cost_s / all.landings : 0.0);
-  page += text;
   std::string bad;
   std::string refused;
   for (const LandingResult& r : rows) {

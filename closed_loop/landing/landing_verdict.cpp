@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "foundation/errors.hpp"
@@ -137,12 +137,6 @@ const std::vector<Field>& fields() {
   return kFields;
 }
 
-std::string format(const char* pattern, double a) {
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, a);
-  return text;
-}
-
 }  // namespace
 
 const char* name(Outcome outcome) {
@@ -187,24 +181,23 @@ double widest_safe_radius_m(const sim::SurfaceTruth& truth, const Eigen::Vector2
 
 std::string describe(const LandingResult& r, double wanted_radius_m) {
   std::string text = r.look + " " + std::to_string(r.seed);
-  if (r.fault != "none") text += ", " + r.fault + format(" at %.1f s", r.fault_s);
-  if (r.fault_lasts_s) text += format(" for %.1f s", *r.fault_lasts_s);
+  if (r.fault != "none") text += ", " + r.fault + fmt::format(" at {:.1f} s", r.fault_s);
+  if (r.fault_lasts_s) text += fmt::format(" for {:.1f} s", *r.fault_lasts_s);
   text += ": ";
   if (r.landed()) {
     const Footprint& f = *r.footprint;
     text += std::string("touched down on ") + (r.outcome == Outcome::kSafe ? "safe" : "UNSAFE") + " ground";
-    text += format(" after %.1f s", r.duration_s) + format(" (slope %.1f deg", f.slope_deg) +
-            format(", roughness %.2f m", f.residual_m) + format(", clearance %.2f m", f.clearance_m) +
-            format(", landable %.0f %%)", 100 * f.landable_share);
+    text += fmt::format(
+        " after {:.1f} s (slope {:.1f} deg, roughness {:.2f} m, clearance {:.2f} m, landable {:.0f} %)",
+        r.duration_s, f.slope_deg, f.residual_m, f.clearance_m, 100 * f.landable_share);
   } else if (r.outcome == Outcome::kCollided) {
-    text += "COLLIDED" + format(" after %.1f s: ", r.duration_s) + r.reason;
+    text += fmt::format("COLLIDED after {:.1f} s: {}", r.duration_s, r.reason);
   } else {
-    text += "gave up" + format(" after %.1f s: ", r.duration_s) + r.reason;
+    text += fmt::format("gave up after {:.1f} s: {}", r.duration_s, r.reason);
   }
   const bool site = r.safe_radius_m >= wanted_radius_m;
-  return text + format(site ? "; a safe site was within reach (widest %.1f m)"
-                            : "; no safe site was within reach (widest %.1f m)",
-                       r.safe_radius_m);
+  return text +
+         fmt::format("; {} safe site was within reach (widest {:.1f} m)", site ? "a" : "no", r.safe_radius_m);
 }
 
 std::string to_json(const LandingResult& r) {
