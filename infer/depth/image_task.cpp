@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "foundation/config_reader.hpp"
 
@@ -215,10 +216,8 @@ void ImageTask::close(bool lidar_silent, const std::string& why) {
 }
 
 std::string ImageTask::verdicts() const {
-  char text[160];
-  std::snprintf(text, sizeof text, "prediction not trusted (stereo: %s, LiDAR hold-out: %s)",
-                name(result_.stereo_verdict), name(result_.holdout_verdict));
-  return text;
+  return fmt::format("prediction not trusted (stereo: {}, LiDAR hold-out: {})", name(result_.stereo_verdict),
+                     name(result_.holdout_verdict));
 }
 
 void ImageTask::accept() {
@@ -228,17 +227,15 @@ void ImageTask::accept() {
   result_.pixel_source = cv::Mat::zeros(prediction_m_.size(), CV_8UC1);
   result_.pixel_source.setTo(static_cast<int>(PixelSource::kPredictedOutsideFov), prediction_m_ > 0);
   result_.pixel_source.setTo(static_cast<int>(PixelSource::kPredicted), (prediction_m_ > 0) & fov_mask());
-  char text[96];
-  std::snprintf(text, sizeof text, "trusted (stereo: %s, LiDAR hold-out: %s)", name(result_.stereo_verdict),
-                name(result_.holdout_verdict));
+  const std::string text = fmt::format("trusted (stereo: {}, LiDAR hold-out: {})",
+                                       name(result_.stereo_verdict), name(result_.holdout_verdict));
   finish(image_alone ? DepthSource::kImage : DepthSource::kLidar, text);
 }
 
 void ImageTask::fall_back(const std::string& why) {
   if (result_.accumulation_s + last_duration_s_ / 2 < config_.min_fallback_s || fed_.count() == 0) {
-    char text[64];
-    std::snprintf(text, sizeof text, "; %.2f s of LiDAR are too little for a fallback",
-                  result_.accumulation_s);
+    const std::string text =
+        fmt::format("; {:.2f} s of LiDAR are too little for a fallback", result_.accumulation_s);
     return finish(DepthSource::kNone, why + text);
   }
   {

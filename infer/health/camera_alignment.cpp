@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/crop.hpp"
@@ -66,9 +66,9 @@ void EyeAlignment::add(std::int64_t t_ns, const cv::Mat& left, const cv::Mat& ri
   const double off_swapped_px = std::hypot(shift_px.x - disparity_px, shift_px.y);
   const double limit_px = config_.stereo.max_misalignment_px;
   const bool swapped = disparity_px >= config_.stereo.min_disparity_px && off_swapped_px < disparity_px / 2;
-  char text[160];
-  std::snprintf(text, sizeof text, "right image shifted by (%.2f, %.2f) px, (%.2f, 0) px expected at %.1f m",
-                shift_px.x, shift_px.y, -disparity_px, *distance_m);
+  const std::string text =
+      fmt::format("right image shifted by ({:.2f}, {:.2f}) px, ({:.2f}, 0) px expected at {:.1f} m",
+                  shift_px.x, shift_px.y, -disparity_px, *distance_m);
   swapped_.look(config_, t_ns, swapped, text);
   misaligned_.look(config_, t_ns, !swapped && off_px > limit_px, text);
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "foundation/text_format.hpp"
+#include <fmt/format.h>
 
 namespace alight {
 namespace {
@@ -58,11 +58,12 @@ bool EyeWatch::add(std::int64_t t_ns, const cv::Mat& image, const std::optional<
   // Without light or with too much of it there is no noise to vary.
   const bool frozen = is_frozen(sample, p_world) && !black && !white;
   last_sample_ = std::move(sample);
-  black_.look(config_, t_ns, black,
-              format_text("mean grey level %.1f, at least %.1f expected", level, config_.eye.black_level));
+  black_.look(
+      config_, t_ns, black,
+      fmt::format("mean grey level {:.1f}, at least {:.1f} expected", level, config_.eye.black_level));
   over_exposed_.look(config_, t_ns, white,
-                     format_text("%.0f %% of the pixels are saturated, at most %.0f %% expected", 100 * share,
-                                 100 * config_.eye.max_saturated_share));
+                     fmt::format("{:.0f} % of the pixels are saturated, at most {:.0f} % expected",
+                                 100 * share, 100 * config_.eye.max_saturated_share));
   frozen_.look(config_, t_ns, frozen, "the same picture again and again");
   return !black && !white && !frozen && usable();
 }

@@ -5,8 +5,9 @@
 #include <iterator>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "foundation/order_statistics.hpp"
-#include "foundation/text_format.hpp"
 #include "geometry/frames.hpp"
 #include "sensors/poses/alignment.hpp"
 
@@ -50,7 +51,7 @@ void LidarWatch::count_points(std::int64_t t_ns, const LidarPacket& packet) {
   const double usual =
       point_counts_.empty() ? count : median(std::vector<double>(point_counts_.begin(), point_counts_.end()));
   const bool few = count < config_.lidar.min_point_share * usual;
-  partial_.look(config_, t_ns, few, format_text("%.0f points in a packet, usually %.0f", count, usual));
+  partial_.look(config_, t_ns, few, fmt::format("{:.0f} points in a packet, usually {:.0f}", count, usual));
   // What is too little does not become the usual.
   if (!few) point_counts_.push_back(count);
   if (point_counts_.size() > kUsualPackets) point_counts_.pop_front();
@@ -73,7 +74,7 @@ bool LidarWatch::noisy(std::int64_t t_ns, const LidarPacket& packet) {
   const double share = static_cast<double>(spikes) / static_cast<double>(returns.size());
   const bool noise = share > config_.lidar.max_spike_share;
   noise_.look(config_, t_ns, noise,
-              format_text("%.1f %% of the echoes stand alone in the air, at most %.1f %% expected",
+              fmt::format("{:.1f} % of the echoes stand alone in the air, at most {:.1f} % expected",
                           100 * share, 100 * config_.lidar.max_spike_share));
   return noise;
 }
@@ -152,7 +153,7 @@ bool LidarWatch::contradicts_ground(std::int64_t t_ns, const LidarPacket& packet
   const bool mirrored = !doubted && common && fit.misfit_m >= limits.mirror_misfit_m &&
                         mirror_fits(packet, trajectory, fit.misfit_m);
   const bool strange = !mirrored && (common ? fit.misfit_m > limits.max_misfit_m : doubted);
-  const std::string reason = format_text("%.2f m off the ground of the second before", fit.misfit_m);
+  const std::string reason = fmt::format("{:.2f} m off the ground of the second before", fit.misfit_m);
   mirrored_.look(config_, t_ns, mirrored, reason + "; mirrored it fits");
   if (!mirrored_.suspected()) mirrors_fitted_ = {};
   strange_.look(config_, t_ns, strange, reason);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "foundation/text_format.hpp"
+#include <fmt/format.h>
+
 #include "geometry/frames.hpp"
 
 namespace alight {
@@ -41,13 +42,13 @@ bool PoseWatch::add(const AttitudeSample& sample) {
     const double dt_s = to_seconds(sample.t_ns - attitude_->t_ns);
     jump = turn_deg > config_.pose.max_turn_deg * std::max(1.0, dt_s / kTurnOver_s);
     same = attitude_->q_world_imu.coeffs() == sample.q_world_imu.coeffs();
-    const std::string reason = format_text("turned by %.1f deg in %.3f s", turn_deg, dt_s);
+    const std::string reason = fmt::format("turned by {:.1f} deg in {:.3f} s", turn_deg, dt_s);
     if (jump) attitude_jump_.raise(sample.t_ns, reason);
   }
   if (!jump) attitude_jump_.look(config_, sample.t_ns, false, "");
   const double same_s = same_attitude_.add(sample.t_ns, same);
   attitude_frozen_.look(config_, sample.t_ns, same_s > config_.pose.frozen_s,
-                        format_text("the same value for %.2f s", same_s));
+                        fmt::format("the same value for {:.2f} s", same_s));
   attitude_ = sample;
   return jump;
 }
@@ -68,7 +69,7 @@ bool PoseWatch::add(const PositionSample& sample) {
     jump = off_m > config_.pose.max_position_step_m * std::max(1.0, dt_s / kStepOver_s);
     same = p_world == last.p_world;
     if (jump) {
-      position_jump_.raise(sample.t_ns, format_text("%.2f m off the way so far, at most %.2f m expected",
+      position_jump_.raise(sample.t_ns, fmt::format("{:.2f} m off the way so far, at most {:.2f} m expected",
                                                     off_m, config_.pose.max_position_step_m));
       places_.clear();
     }
@@ -76,7 +77,7 @@ bool PoseWatch::add(const PositionSample& sample) {
   if (!jump) position_jump_.look(config_, sample.t_ns, false, "");
   const double same_s = same_position_.add(sample.t_ns, same);
   position_frozen_.look(config_, sample.t_ns, same_s > config_.pose.frozen_s,
-                        format_text("the same value for %.2f s", same_s));
+                        fmt::format("the same value for {:.2f} s", same_s));
   places_.push_back({sample.t_ns, p_world});
   while (to_seconds(sample.t_ns - places_.front().t_ns) > kVelocityOver_s) places_.pop_front();
   return jump;

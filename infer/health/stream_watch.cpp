@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "foundation/order_statistics.hpp"
 #include "geometry/frames.hpp"
@@ -13,12 +14,6 @@ namespace {
 constexpr std::size_t kGapsKept = 9;
 constexpr std::size_t kOrderKept = 20;
 constexpr double kPeriodsToLoss = 2.5;
-
-std::string seconds(const char* pattern, double s) {
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, s);
-  return text;
-}
 
 }  // namespace
 
@@ -52,7 +47,7 @@ StreamWatch::StreamWatch(const HealthConfig& config, Stream stream, bool needed)
 bool StreamWatch::add(std::int64_t t_ns, std::int64_t now_ns, double slack_s) {
   const double ahead_s = to_seconds(t_ns - now_ns);
   const bool wrong = ahead_s > config_.max_ahead_s + slack_s || ahead_s < -config_.max_behind_s;
-  clock_.look(config_, now_ns, wrong, seconds("stamps are %+.3f s off the other sensors'", ahead_s));
+  clock_.look(config_, now_ns, wrong, fmt::format("stamps are {:+.3f} s off the other sensors'", ahead_s));
   if (wrong) return false;
   note_order(t_ns, now_ns);
   if (last_ns_ && t_ns > *last_ns_) {
@@ -71,8 +66,8 @@ void StreamWatch::note_order(std::int64_t t_ns, std::int64_t now_ns) {
   // Two of a handful are no habit yet: a sensor of 10 Hz has to be judged by few messages.
   const bool disorder = late >= 2 && late > config_.max_disorder_share * static_cast<double>(late_.size());
   order_.look(config_, now_ns, disorder,
-              seconds("%.0f %% of its last messages are older than the one before",
-                      100 * late / static_cast<double>(late_.size())));
+              fmt::format("{:.0f} % of its last messages are older than the one before",
+                          100 * late / static_cast<double>(late_.size())));
 }
 
 void StreamWatch::pass(std::int64_t now_ns, std::int64_t begin_ns) {
@@ -84,7 +79,7 @@ void StreamWatch::pass(std::int64_t now_ns, std::int64_t begin_ns) {
   const double silent_s = to_seconds(now_ns - *last_ns_);
   if (silent_s > std::max(config_.lost_after_s, kPeriodsToLoss * period_s())) {
     lost_.raise(lost_.present() ? lost_.finding().since_ns : now_ns,
-                seconds("no message for %.2f s", silent_s));
+                fmt::format("no message for {:.2f} s", silent_s));
   } else {
     lost_.clear();
   }

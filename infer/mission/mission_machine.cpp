@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "geometry/frames.hpp"
 
@@ -21,12 +22,6 @@ constexpr std::size_t kMaxRemembered = 64;
 constexpr double kWayPerRadius = 40.0;
 
 double horizontal_m(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).head<2>().norm(); }
-
-std::string figure(const char* format, double value) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 }  // namespace
 
@@ -119,9 +114,8 @@ void MissionMachine::add(std::int64_t t_ns, const FrameEvidence& frame) {
 
 void MissionMachine::judge_target(const FrameEvidence& frame) {
   const SiteCheck check = frame.check.value_or(SiteCheck{});
-  char text[120];
-  std::snprintf(text, sizeof text, "free radius %.2f m, %.0f %% of it known, %.0f %% of that unsafe",
-                check.radius_m, 100 * check.known_share, 100 * check.unsafe_share);
+  const std::string text = fmt::format("free radius {:.2f} m, {:.0f} % of it known, {:.0f} % of that unsafe",
+                                       check.radius_m, 100 * check.known_share, 100 * check.unsafe_share);
   last_check_ = frame.check ? text : "no depth";
   switch (check.verdict) {
     case SiteVerdict::kSafe:
@@ -194,10 +188,11 @@ std::string MissionMachine::reason_for(const Transition& row) const {
   if (health_failed_ && (uses(G::kHealthFailed) || state_ == S::kHold)) reason += ": " + health_text_;
   if (uses(G::kTargetUnsafe) || uses(G::kTargetLost) || (uses(G::kTimeout) && state_ == S::kConfirm))
     reason += " (" + last_check_ + ")";
-  if (uses(G::kSearchTooLow)) reason += figure(" (%.1f m over it)", p_world_->z() - accepted_->p_world.z());
+  if (uses(G::kSearchTooLow))
+    reason += fmt::format(" ({:.1f} m over it)", p_world_->z() - accepted_->p_world.z());
   if (uses(G::kEnergyLow) || uses(G::kEnergyCritical)) {
-    reason += figure(" (battery %.0f %%", 100 * charge_) +
-              figure(", %.0f s in automatic mode)", automatic_ns_ ? since_s(*automatic_ns_) : 0.0);
+    reason += fmt::format(" (battery {:.0f} %", 100 * charge_) +
+              fmt::format(", {:.0f} s in automatic mode)", automatic_ns_ ? since_s(*automatic_ns_) : 0.0);
   }
   return reason;
 }

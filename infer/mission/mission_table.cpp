@@ -1,6 +1,6 @@
 #include "infer/mission/mission_table.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace alight {
 namespace {
@@ -204,9 +204,7 @@ std::string mission_tables_markdown() {
     std::string limit;
     for (const StateTimeout& timeout : state_timeouts()) {
       if (timeout.state != row.state) continue;
-      char seconds[32];
-      std::snprintf(seconds, sizeof seconds, " (%g s)", defaults.*timeout.limit_s);
-      limit = "`" + std::string(timeout.key) + "`" + seconds;
+      limit = fmt::format("`{}` ({:g} s)", timeout.key, defaults.*timeout.limit_s);
     }
     page += "| " + std::string(row.name) + " | " + row.number + " | " + row.does + " | " + limit + " |\n";
   }

@@ -1,11 +1,11 @@
 #include "infer/network/network_benchmark.hpp"
 
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -152,13 +152,12 @@ NetworkBenchmark benchmark_network(const std::filesystem::path& checkpoint, cons
 
 std::string NetworkBenchmark::table() const {
   const double gflop_per_s = 1e3 * gflop / stages.percentile_ms("learned full pass", 0.5);
-  char rest[256];
-  std::snprintf(rest, sizeof rest,
-                "%.2f GFLOP a full pass, %.2f a refinement; learned part %.0f GFLOP/s, %.0f %% of a "
-                "convolution's %.0f\n"
-                "resident memory %.0f MB\n",
-                gflop, refinement_gflop, gflop_per_s, 100 * gflop_per_s / convolution_gflop_per_s,
-                convolution_gflop_per_s, resident_memory_mb);
+  const std::string rest = fmt::format(
+      "{:.2f} GFLOP a full pass, {:.2f} a refinement; learned part {:.0f} GFLOP/s, {:.0f} % of a "
+      "convolution's {:.0f}\n"
+      "resident memory {:.0f} MB\n",
+      gflop, refinement_gflop, gflop_per_s, 100 * gflop_per_s / convolution_gflop_per_s,
+      convolution_gflop_per_s, resident_memory_mb);
   return stages.table() + rest;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -26,16 +27,9 @@ using Json = nlohmann::json;
 
 constexpr std::int64_t kLeastStamp_ns = 1'000'000'000;
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[400];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 /// "0.412", "-" for null.
 std::string figure(const Json& value, int digits = 3) {
-  return value.is_number() ? format("%.*f", digits, value.get<double>()) : "-";
+  return value.is_number() ? fmt::format("{:.{}f}", value.get<double>(), digits) : "-";
 }
 
 /// All that is known of a result.
@@ -96,38 +90,41 @@ std::string stereo_text(const Json& frame, const StereoTestConfig& limits) {
   const double sim = frame.at("sim").get<double>();
   text += "  similarity to the right image: as it is " + figure(frame.at("sim")) + ", by the LiDAR " +
           figure(frame.at("sim_d")) + ", by the prediction " + figure(frame.at("sim_pred")) + "\n";
-  text += format("  limits: more than %.3f (%.2f over as it is)", sim + limits.min_gain, limits.min_gain);
+  text += fmt::format("  limits: more than {:.3f} ({:.2f} over as it is)", sim + limits.min_gain,
+                      limits.min_gain);
   if (frame.at("sim_d").is_number())
-    text += format(", or than %.3f (half way to the LiDAR)", (sim + frame.at("sim_d").get<double>()) / 2);
-  text += "\n  peak over depth moved by " + format("%.0f %%: ", 100 * limits.probe) +
-          figure(frame.at("sim_peak")) + format(", limit %.3f\n", limits.min_peak);
+    text +=
+        fmt::format(", or than {:.3f} (half way to the LiDAR)", (sim + frame.at("sim_d").get<double>()) / 2);
+  text += "\n  peak over depth moved by " + fmt::format("{:.0f} %: ", 100 * limits.probe) +
+          figure(frame.at("sim_peak")) + fmt::format(", limit {:.3f}\n", limits.min_peak);
   return text;
 }
 
 std::string holdout_text(const Json& frame, const HoldoutTestConfig& limits) {
   return "LiDAR hold-out test: " + frame.at("holdout_verdict").get<std::string>() + "\n" +
-         format("  %d points (at least %d), median error ", frame.at("holdout_points").get<int>(),
-                limits.min_points) +
+         fmt::format("  {} points (at least {}), median error ", frame.at("holdout_points").get<int>(),
+                     limits.min_points) +
          figure(frame.at("holdout_median_relative"), 4) +
-         format(" of the depth (at most %.4f), RMS ", limits.max_median_relative) +
-         figure(frame.at("holdout_rms_relative"), 4) + format(" (at most %.4f)\n", limits.max_rms_relative);
+         fmt::format(" of the depth (at most {:.4f}), RMS ", limits.max_median_relative) +
+         figure(frame.at("holdout_rms_relative"), 4) +
+         fmt::format(" (at most {:.4f})\n", limits.max_rms_relative);
 }
 
 std::string site_text(const Json& frame, const LandingConfig& limits) {
   std::string text = "ground: ";
   if (frame.contains("largest_radius_m")) {
-    text += format("largest safe circle %.2f m, more than %.2f m wanted\n",
-                   frame.at("largest_radius_m").get<double>(), limits.selection.min_radius_m);
+    text += fmt::format("largest safe circle {:.2f} m, more than {:.2f} m wanted\n",
+                        frame.at("largest_radius_m").get<double>(), limits.selection.min_radius_m);
   } else {
     text += "no safe circle was looked for, or none is there\n";
   }
   const Json& site = frame.at("site");
   if (!site.is_null()) {
-    text += format("tracker: found in %d frames in a row, %d wanted\n", site.at("frames").get<int>(),
-                   limits.tracker.confirm_frames);
+    text += fmt::format("tracker: found in {} frames in a row, {} wanted\n", site.at("frames").get<int>(),
+                        limits.tracker.confirm_frames);
   }
   if (frame.at("wander").get<bool>())
-    text += format("no site has counted for %.1f s: wander\n", limits.tracker.wander_after_s);
+    text += fmt::format("no site has counted for {:.1f} s: wander\n", limits.tracker.wander_after_s);
   return text;
 }
 
@@ -138,8 +135,8 @@ std::string conclusion(const Json& frame) {
   const char* standing =
       site.at("accepted").get<bool>() ? "landing site accepted: " : "landing site not yet confirmed: ";
   return standing + reason +
-         format(", at (%.2f, %.2f, %.2f) m in the world", site.at("p_world")[0].get<double>(),
-                site.at("p_world")[1].get<double>(), site.at("p_world")[2].get<double>());
+         fmt::format(", at ({:.2f}, {:.2f}, {:.2f}) m in the world", site.at("p_world")[0].get<double>(),
+                     site.at("p_world")[1].get<double>(), site.at("p_world")[2].get<double>());
 }
 
 cv::Mat decoded(const Record* record, cv::Size size) {
@@ -188,7 +185,7 @@ FrameReport restored(const RecordedResult& result) {
 
 std::string picture_text(const RecordedResult& result) {
   if (result.left == nullptr) return "picture: none was recorded until then\n";
-  return format("picture: of %.2f s before the result\n", to_seconds(result.t_ns - result.left->t_ns));
+  return fmt::format("picture: of {:.2f} s before the result\n", to_seconds(result.t_ns - result.left->t_ns));
 }
 
 }  // namespace
@@ -202,15 +199,15 @@ Explanation explain(const fs::path& record, std::int64_t t_ns) {
   explanation.t_ns = result.t_ns;
   explanation.picture = replay_strip(restored(result));
   std::string& text = explanation.text;
-  text = format("result of %lld ns, %.3f s before the moment asked for\n",
-                static_cast<long long>(result.t_ns), to_seconds(t_ns - result.t_ns));
+  text = fmt::format("result of {} ns, {:.3f} s before the moment asked for\n", result.t_ns,
+                     to_seconds(t_ns - result.t_ns));
   text += conclusion(frame) + "\n" + health_text(frame.at("health"));
   if (result.health != nullptr && result.health->t_ns > result.t_ns) {
     text += "since then, " + health_text(Json::parse(result.health->content));
   }
   text += "depth: " + frame.at("source").get<std::string>() + ", " + frame.at("reason").get<std::string>() +
-          format("; %.2f s of LiDAR, %d predictions\n", frame.at("accumulation_s").get<double>(),
-                 frame.at("predictions").get<int>());
+          fmt::format("; {:.2f} s of LiDAR, {} predictions\n", frame.at("accumulation_s").get<double>(),
+                      frame.at("predictions").get<int>());
   text += stereo_text(frame, tests.stereo) + holdout_text(frame, tests.holdout);
   text += site_text(frame, result.settings.landing) + picture_text(result);
   for (const std::string& damage : contents.damages) text += "damage: " + damage + "\n";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -12,6 +11,7 @@
 
 #include <boost/crc.hpp>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "foundation/errors.hpp"
@@ -140,8 +140,7 @@ bool SegmentWriter::append(const Record& record) {
 
 bool SegmentWriter::open_next() {
   make_room(limits_.segment_bytes);
-  char name[32];
-  std::snprintf(name, sizeof name, "%08lld.rec", static_cast<long long>(number_ + 1));
+  const std::string name = fmt::format("{:08}.rec", number_ + 1);
   const fs::path path = folder_ / name;
   file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (file_ < 0) {

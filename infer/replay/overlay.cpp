@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/depth_map.hpp"
@@ -63,9 +63,8 @@ Panel depth_panel(const FrameReport& frame) {
   const DepthResult& depth = frame.depth;
   if (depth.depth_m.empty()) return {"depth: none", depth_picture(frame)};
   const ColourScale scale = colour_scale(depth.depth_m);
-  char title[96];
-  std::snprintf(title, sizeof title, "depth: %s, %.1f s LiDAR, %.1f-%.1f m", name(depth.source),
-                depth.accumulation_s, scale.min_m, scale.max_m);
+  const std::string title = fmt::format("depth: {}, {:.1f} s LiDAR, {:.1f}-{:.1f} m", name(depth.source),
+                                        depth.accumulation_s, scale.min_m, scale.max_m);
   return {title, depth_picture(frame)};
 }
 
@@ -73,9 +72,8 @@ Panel sparse_panel(const FrameReport& frame) {
   cv::Mat thick;  // single pixels vanish in a README
   cv::dilate(frame.depth.sparse_m, thick, cv::Mat::ones(2, 2, CV_8UC1));
   const ColourScale scale = colour_scale(frame.depth.depth_m.empty() ? thick : frame.depth.depth_m);
-  char title[96];
-  std::snprintf(title, sizeof title, "LiDAR: %d points, %.1f s", cv::countNonZero(frame.depth.sparse_m),
-                frame.depth.accumulation_s);
+  const std::string title = fmt::format("LiDAR: {} points, {:.1f} s", cv::countNonZero(frame.depth.sparse_m),
+                                        frame.depth.accumulation_s);
   return {title, colour_depth(thick, scale.min_m, scale.max_m)};
 }
 
@@ -90,8 +88,7 @@ Panel site_panel(const FrameReport& frame) {
     return {"landing site: none", image};
   }
   const TrackedSite& tracked = *frame.decision.site;
-  char text[64];
-  std::snprintf(text, sizeof text, "R = %.1f m, %d frames", tracked.circle.radius_m, tracked.frames);
+  const std::string text = fmt::format("R = {:.1f} m, {} frames", tracked.circle.radius_m, tracked.frames);
   write(image, text, {8, 20}, colour_of(tracked));
   return {tracked.accepted ? "landing site: accepted" : "landing site: not yet confirmed", image};
 }

@@ -1,9 +1,9 @@
 #include "infer/replay/result_writer.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "foundation/errors.hpp"
@@ -60,13 +60,6 @@ Json to_json(const HealthReport& health) {
                                 {"since_ns", finding.since_ns}});
   }
   return json;
-}
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
 }
 
 double percentile(std::vector<double> values, double share) {
@@ -133,10 +126,10 @@ double StageStatistics::percentile_ms(const std::string& stage, double share) co
 }
 
 std::string StageStatistics::table() const {
-  std::string text = format("%-14s %8s %11s %9s\n", "stage", "frames", "median ms", "p95 ms");
+  std::string text = fmt::format("{:14} {:>8} {:>11} {:>9}\n", "stage", "frames", "median ms", "p95 ms");
   for (const auto& [stage, samples] : samples_ms_) {
-    text += format("%-14s %8zu %11.2f %9.2f\n", stage.c_str(), samples.size(), percentile(samples, 0.5),
-                   percentile(samples, 0.95));
+    text += fmt::format("{:14} {:8} {:>11.2f} {:>9.2f}\n", stage, samples.size(), percentile(samples, 0.5),
+                        percentile(samples, 0.95));
   }
   return text;
 }
@@ -155,32 +148,29 @@ void ReplaySummary::add(const FrameReport& frame) {
 }
 
 std::string ReplaySummary::page() const {
-  const auto count = [](std::int64_t n) { return static_cast<long long>(n); };
-  std::string text = format("images                 %8lld\n", count(images));
+  std::string text = fmt::format("images                 {:8}\n", images);
   std::int64_t with_depth = 0;
   for (const char* source : {"image", "lidar", "fallback", "none"}) {
     const auto found = by_source.find(source);
     const std::int64_t n = found == by_source.end() ? 0 : found->second;
     if (std::string(source) != "none") with_depth += n;
-    text += format("  source %-13s %8lld %6.1f %%\n", source, count(n),
-                   images > 0 ? 100.0 * static_cast<double>(n) / static_cast<double>(images) : 0.0);
+    text += fmt::format("  source {:13} {:8} {:>6.1f} %\n", source, n,
+                        images > 0 ? 100.0 * static_cast<double>(n) / static_cast<double>(images) : 0.0);
   }
-  for (const auto& [reason, n] : none_reasons)
-    text += format("    none: %-60s %8lld\n", reason.c_str(), count(n));
+  for (const auto& [reason, n] : none_reasons) text += fmt::format("    none: {:60} {:8}\n", reason, n);
   if (with_depth > 0) {
-    text += format("mean LiDAR accumulation %.3f s\n", accumulation_s / static_cast<double>(with_depth));
+    text +=
+        fmt::format("mean LiDAR accumulation {:.3f} s\n", accumulation_s / static_cast<double>(with_depth));
   }
-  text += format("frames with a site     %8lld, accepted %lld, wandering %lld\n", count(sites),
-                 count(accepted), count(wandering));
+  text += fmt::format("frames with a site     {:8}, accepted {}, wandering {}\n", sites, accepted, wandering);
   if (live) {
-    text += format(
-        "in real time           %8.1f images/s; from arrival to result %.0f ms (median), %.0f ms (p95), "
-        "%.0f ms at most\n",
+    text += fmt::format(
+        "in real time           {:>8.1f} images/s; from arrival to result {:.0f} ms (median), {:.0f} ms "
+        "(p95), {:.0f} ms at most\n",
         static_cast<double>(live->images) / live_s, live->latency_ms(0.5), live->latency_ms(0.95),
         live->max_latency_ms);
   }
-  for (const auto& [reason, n] : left_out)
-    text += format("left out               %8lld %s\n", count(n), reason.c_str());
+  for (const auto& [reason, n] : left_out) text += fmt::format("left out               {:8} {}\n", n, reason);
   return text + "\n" + stages.table();
 }
 

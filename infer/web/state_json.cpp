@@ -1,9 +1,9 @@
 #include "infer/web/state_json.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "geometry/depth_map.hpp"
@@ -60,9 +60,7 @@ Json scale_colours() {
   Json json = Json::array();
   for (int i = 0; i < kSteps; ++i) {
     const auto bgr = colours.at<cv::Vec3b>(0, i);
-    char text[8];
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", bgr[2], bgr[1], bgr[0]);
-    json.push_back(text);
+    json.push_back(fmt::format("#{:02x}{:02x}{:02x}", bgr[2], bgr[1], bgr[0]));
   }
   return json;
 }
