@@ -2,11 +2,12 @@
 
 #include <stdexcept>
 
+#include <boost/crc.hpp>
+
 namespace alight {
 namespace {
 
 constexpr std::uint8_t kMagic = 0xFD;
-constexpr std::uint16_t kReversedPolynomial = 0x8408;  // x^16 + x^12 + x^5 + 1
 
 /// Zeros at the payload's end are left out, but its first byte is always sent.
 std::size_t truncated_size(const std::vector<std::uint8_t>& payload) {
@@ -17,14 +18,11 @@ std::size_t truncated_size(const std::vector<std::uint8_t>& payload) {
 
 }  // namespace
 
-std::uint16_t mavlink_crc(const std::uint8_t* bytes, std::size_t count, std::uint16_t crc) {
-  unsigned register_bits = crc;
-  for (std::size_t i = 0; i < count; ++i) {
-    register_bits ^= bytes[i];
-    for (int bit = 0; bit < 8; ++bit)
-      register_bits = (register_bits >> 1) ^ ((register_bits & 1U) != 0 ? kReversedPolynomial : 0U);
-  }
-  return static_cast<std::uint16_t>(register_bits);
+std::uint16_t mavlink_crc(const std::uint8_t* bytes, std::size_t count, std::uint8_t crc_extra) {
+  boost::crc_optimal<16, 0x1021, 0xFFFF, 0, true, true> crc;
+  crc.process_bytes(bytes, count);
+  crc.process_byte(crc_extra);
+  return crc.checksum();
 }
 
 std::vector<std::uint8_t> MavlinkFramer::frame(const MavlinkMessage& message) {
@@ -42,9 +40,8 @@ std::vector<std::uint8_t> MavlinkFramer::frame(const MavlinkMessage& message) {
       .put(static_cast<std::uint16_t>(message.id & 0xFFFF))
       .put(static_cast<std::uint8_t>(message.id >> 16));
   for (std::size_t i = 0; i < size; ++i) fields.put(message.payload[i]);
-  const std::uint16_t crc =
-      mavlink_crc(fields.bytes().data() + 1, fields.bytes().size() - 1);  // without magic
-  return fields.put(mavlink_crc(&message.crc_extra, 1, crc)).bytes();
+  const std::vector<std::uint8_t>& bytes = fields.bytes();  // the CRC leaves out the magic
+  return fields.put(mavlink_crc(bytes.data() + 1, bytes.size() - 1, message.crc_extra)).bytes();
 }
 
 }  // namespace alight

@@ -50,7 +50,7 @@ class MavlinkFramer {
   std::uint8_t sequence_ = 0;
 };
 
-/// CRC-16/MCRF4XX, which MAVLink calls X.25.
-std::uint16_t mavlink_crc(const std::uint8_t* bytes, std::size_t count, std::uint16_t crc = 0xFFFF);
+/// CRC-16/MCRF4XX, which MAVLink calls X.25, of a frame's bytes without its magic and, after them, the message's crc_extra.
+std::uint16_t mavlink_crc(const std::uint8_t* bytes, std::size_t count, std::uint8_t crc_extra);
 
 }  // namespace alight

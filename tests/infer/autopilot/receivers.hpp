@@ -122,7 +122,7 @@ inline Frame take_apart(const Bytes& bytes) {
   frame.id = bytes[7] + (bytes[8] << 8) + (bytes[9] << 16);
   frame.payload.assign(bytes.begin() + 10, bytes.end() - 2);
   const std::uint8_t crc_extra = frame.id == 149 ? 200 : 50;
-  const std::uint16_t crc = mavlink_crc(&crc_extra, 1, mavlink_crc(bytes.data() + 1, bytes.size() - 3));
+  const std::uint16_t crc = mavlink_crc(bytes.data() + 1, bytes.size() - 3, crc_extra);
   EXPECT_EQ(bytes[bytes.size() - 2] + (bytes[bytes.size() - 1] << 8), crc);
   return frame;
 }
