@@ -59,7 +59,7 @@ TEST(Train, LeavesAllThatARunIsKnownBy) {
               AllOf(HasSubstr("steps_per_epoch: 6"), HasSubstr("window_max_s:")));
   EXPECT_THAT(file_text(run / "provenance.yaml"),
               ::testing::ContainsRegex(
-                  "git_revision: (unknown|[0-9a-f]{40}(-dirty)?)\ndataset: .*\ndata_hash: [0-9a-f]{16}\n"));
+                  "git_revision: (unknown|[0-9a-f]{40}(-dirty)?)\ndataset: .*\ndata_hash: [0-9a-f]{32}\n"));
 }
 
 /// Starts the tool and kills it with SIGKILL, as a power cut would, once the run's metrics have so many rows.

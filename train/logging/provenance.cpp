@@ -1,13 +1,9 @@
 #include "train/logging/provenance.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
-#include <fstream>
-#include <sstream>
-#include <string_view>
 #include <vector>
 
+#include "foundation/content_hash.hpp"
 #include "foundation/errors.hpp"
 
 extern const char kGitRevision[];  // git_revision.cpp, written by cmake/GitRevision.cmake
@@ -15,30 +11,6 @@ extern const char kGitRevision[];  // git_revision.cpp, written by cmake/GitRevi
 namespace alight {
 namespace fs = std::filesystem;
 namespace {
-
-/// FNV-1a, 64 bit (Fowler, Noll, Vo).
-class Fnv1a {
- public:
-  void add(std::string_view bytes) {
-    for (const char c : bytes) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
-  std::string hex() const {
-    char text[20];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash_));
-    return text;
-  }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
-};
-
-std::string read_whole(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream content;
-  content << stream.rdbuf();
-  if (!stream) throw DataError(path.string() + ": cannot be read; check its rights");
-  return content.str();
-}
 
 /// Relative to `dataset` and sorted: a folder lists its files in no particular order.
 std::vector<std::string> files_of(const fs::path& dataset) {
@@ -64,16 +36,17 @@ std::string data_hash(const fs::path& dataset) {
     throw DataError((dataset / "dataset.yaml").string() +
                     ": not found; name a data set that alight-dataset build has made");
   }
-  Fnv1a hash;
+  std::string listing;
   try {
     for (const std::string& name : files_of(dataset)) {
-      hash.add(name + '\n' + std::to_string(fs::file_size(dataset / name)) + '\n');
-      if (holds_content(name)) hash.add(read_whole(dataset / name));
+      const fs::path file = dataset / name;
+      listing += name + '\n' + std::to_string(fs::file_size(file)) + '\n';
+      if (holds_content(name)) listing += content_hash_of_file(file) + '\n';
     }
   } catch (const fs::filesystem_error& e) {
     throw DataError(dataset.string() + ": cannot be read: " + e.what());
   }
-  return hash.hex();
+  return content_hash(listing);
 }
 
 }  // namespace alight

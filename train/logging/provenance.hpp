@@ -11,9 +11,9 @@ namespace alight {
 /// "unknown" where the source was no git repository.
 std::string git_revision();
 
-/// What a data set holds, 16 hex digits: FNV-1a (64 bit) over the names and sizes of all its files and the content of
-/// dataset.yaml and of every samples.csv. Pictures count by their size, which PNG compression changes with nearly any
-/// pixel, so that a large data set takes seconds. Tells data sets apart; is no protection against forgery.
+/// What a data set holds, 32 hex digits: content_hash of a list of all its files, sorted by name, with `name\nsize\n` a
+/// file, and `content_hash_of_file\n` after that for dataset.yaml and every samples.csv. Pictures count by their size,
+/// which PNG compression changes with nearly any pixel, so that a large data set takes seconds.
 /// @throws DataError if the folder has no dataset.yaml or something in it cannot be read
 std::string data_hash(const std::filesystem::path& dataset);
 
