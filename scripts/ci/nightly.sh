@@ -24,7 +24,7 @@ sanitizers() {
 }
 gcc() { scripts/build.sh gcc; }
 tidy() {
-  cmake --preset dev >/dev/null && cmake --build --preset dev --target alight_torch_pch &&
+  cmake --preset dev >/dev/null && cmake --build --preset dev --target alight_torch_pch alight_event_file &&
     run-clang-tidy -quiet -p build/dev -j "$jobs" "$PWD/(?!build)"
 }
 coverage() { scripts/build.sh coverage coverage; }

@@ -14,11 +14,9 @@
 #include <unistd.h>
 
 #include "foundation/errors.hpp"
+#include "train/event_file.pb.h"  // of event_file.proto
 #include "train/logging/tfrecord.hpp"
-#include "train/logging/wire_message.hpp"
 
-// Field numbers are those of event.proto, summary.proto, tensor.proto and tensor_shape.proto in TensorBoard's
-// tensorboard/compat/proto.
 namespace alight {
 namespace fs = std::filesystem;
 namespace {
@@ -42,7 +40,15 @@ fs::path free_name(const fs::path& folder, double now_s) {
   }
 }
 
-WireMessage histogram_message(std::vector<double> values) {
+/// The value with this tag, still empty, of an event that has no other.
+tensorboard::Summary::Value& add_value(tensorboard::Event& event, std::int64_t step, const std::string& tag) {
+  event.set_step(step);
+  tensorboard::Summary::Value& value = *event.mutable_summary()->add_value();
+  value.set_tag(tag);
+  return value;
+}
+
+void fill(tensorboard::HistogramProto& histogram, const std::vector<double>& values) {
   constexpr std::size_t kBuckets = 30;
   double sum = 0;
   double squares = 0;
@@ -61,13 +67,13 @@ WireMessage histogram_message(std::vector<double> values) {
     const double bucket = width > 0 ? (value - min) / width : 0;
     ++counts[std::min(static_cast<std::size_t>(bucket), counts.size() - 1)];
   }
-  WireMessage histogram;
-  histogram.real(1, min)
-      .real(2, max)
-      .real(3, static_cast<double>(values.size()))
-      .real(4, sum)
-      .real(5, squares);
-  return histogram.reals(6, limits).reals(7, counts);
+  histogram.set_min(min);
+  histogram.set_max(max);
+  histogram.set_num(static_cast<double>(values.size()));
+  histogram.set_sum(sum);
+  histogram.set_sum_squares(squares);
+  *histogram.mutable_bucket_limit() = {limits.begin(), limits.end()};
+  *histogram.mutable_bucket() = {counts.begin(), counts.end()};
 }
 
 }  // namespace
@@ -84,16 +90,22 @@ EventFile::EventFile(const fs::path& folder, std::optional<std::int64_t> continu
   path_ = free_name(folder, clock_());
   stream_.open(path_, std::ios::binary);
   check_stream();
-  write(WireMessage().text(3, "brain.Event:2"));
+  tensorboard::Event version;
+  version.set_file_version("brain.Event:2");
+  write(version);
   if (continue_after_step) {
-    constexpr int kStart = 1;  // SessionLog.START: what was read before with this step or a later one is void
-    write(WireMessage().integer(2, *continue_after_step + 1).message(7, WireMessage().integer(1, kStart)));
+    tensorboard::Event start;
+    start.set_step(*continue_after_step + 1);
+    start.mutable_session_log()->set_status(tensorboard::SessionLog::START);
+    write(start);
   }
   flush();  // a full disk is known before the first epoch
 }
 
 void EventFile::scalar(const std::string& tag, std::int64_t step, double value) {
-  write_summary(step, WireMessage().text(1, tag).real32(2, static_cast<float>(value)));
+  tensorboard::Event event;
+  add_value(event, step, tag).set_simple_value(static_cast<float>(value));
+  write(event);
 }
 
 void EventFile::image(const std::string& tag, std::int64_t step, const cv::Mat& image) {
@@ -102,25 +114,33 @@ void EventFile::image(const std::string& tag, std::int64_t step, const cv::Mat& 
   }
   std::vector<unsigned char> png;
   cv::imencode(".png", image, png);
-  WireMessage message;
-  message.integer(1, image.rows).integer(2, image.cols).integer(3, image.channels());
-  message.text(4, std::string(png.begin(), png.end()));
-  write_summary(step, WireMessage().text(1, tag).message(4, message));
+  tensorboard::Event event;
+  tensorboard::Summary::Image& shown = *add_value(event, step, tag).mutable_image();
+  shown.set_height(image.rows);
+  shown.set_width(image.cols);
+  shown.set_colorspace(image.channels());
+  shown.set_encoded_image_string(png.data(), png.size());
+  write(event);
 }
 
 void EventFile::histogram(const std::string& tag, std::int64_t step, const std::vector<float>& values) {
   std::vector<double> finite;
   std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
                [](float v) { return std::isfinite(v); });
-  write_summary(step, WireMessage().text(1, tag).message(5, histogram_message(std::move(finite))));
+  tensorboard::Event event;
+  fill(*add_value(event, step, tag).mutable_histo(), finite);
+  write(event);
 }
 
 void EventFile::text(const std::string& tag, std::int64_t step, const std::string& markdown) {
-  constexpr int kString = 7;  // DataType.DT_STRING
-  const WireMessage plugin = WireMessage().message(1, WireMessage().text(1, "text"));
-  const WireMessage one_element = WireMessage().message(2, WireMessage().integer(1, 1));
-  const WireMessage tensor = WireMessage().integer(1, kString).message(2, one_element).text(8, markdown);
-  write_summary(step, WireMessage().text(1, tag).message(9, plugin).message(8, tensor));
+  tensorboard::Event event;
+  tensorboard::Summary::Value& value = add_value(event, step, tag);
+  value.mutable_metadata()->mutable_plugin_data()->set_plugin_name("text");
+  tensorboard::TensorProto& tensor = *value.mutable_tensor();
+  tensor.set_dtype(tensorboard::DT_STRING);
+  tensor.mutable_tensor_shape()->add_dim()->set_size(1);
+  tensor.add_string_val(markdown);
+  write(event);
 }
 
 void EventFile::flush() {
@@ -128,12 +148,9 @@ void EventFile::flush() {
   check_stream();
 }
 
-void EventFile::write_summary(std::int64_t step, const WireMessage& value) {
-  write(WireMessage().integer(2, step).message(5, WireMessage().message(1, value)));
-}
-
-void EventFile::write(WireMessage event) {
-  stream_ << tfrecord(event.real(1, clock_()).bytes());
+void EventFile::write(tensorboard::Event& event) {
+  event.set_wall_time(clock_());
+  stream_ << tfrecord(event.SerializeAsString());
   check_stream();
 }
 

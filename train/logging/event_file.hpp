@@ -14,7 +14,9 @@
 
 namespace alight {
 
-class WireMessage;
+namespace tensorboard {
+class Event;  // NOLINT(bugprone-forward-declaration-namespace): OpenCV's Event is another
+}
 
 /// Seconds since 1970. Tests hand in a clock of their own.
 using WallClock = std::function<double()>;
@@ -43,8 +45,8 @@ class EventFile {
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  void write(WireMessage event);
-  void write_summary(std::int64_t step, const WireMessage& value);
+  /// Gives the event its time.
+  void write(tensorboard::Event& event);
   void check_stream() const;
 
   WallClock clock_;

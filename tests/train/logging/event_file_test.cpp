@@ -15,7 +15,6 @@
 #include "foundation/errors.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/train/logging/event_reader.hpp"
-#include "train/logging/wire_message.hpp"
 
 namespace alight {
 namespace {
@@ -65,19 +64,6 @@ class EventFileTest : public testing::Test {
   const fs::path folder_ = scratch_ / "run";
 };
 
-/// protobuf.dev, "Encoding": field 1 = 150 is 08 96 01, field 2 = "testing" is 12 07 74 65 73 74 69 6e 67; the rest by
-/// hand from the same page.
-TEST(WireMessage, EncodesAsDescribed) {
-  EXPECT_EQ(WireMessage().integer(1, 150).bytes(), "\x08\x96\x01");
-  EXPECT_EQ(WireMessage().integer(1, -1).bytes(), "\x08" + std::string(9, '\xff') + "\x01");
-  EXPECT_EQ(WireMessage().text(2, "testing").bytes(), "\x12\x07testing");
-  EXPECT_EQ(WireMessage().message(3, WireMessage().integer(1, 150)).bytes(), "\x1a\x03\x08\x96\x01");
-  EXPECT_EQ(WireMessage().real32(2, 1.F).bytes(), std::string("\x15\0\0\x80\x3f", 5));
-  EXPECT_EQ(WireMessage().real(1, -2).bytes(), std::string("\x09\0\0\0\0\0\0\0\xc0", 9));
-  EXPECT_EQ(WireMessage().reals(7, {1}).bytes(), std::string("\x3a\x08\0\0\0\0\0\0\xf0\x3f", 10));
-  EXPECT_EQ(WireMessage().integer(16, 1).bytes(), "\x80\x01\x01");
-}
-
 TEST_F(EventFileTest, BeginsWithTheVersion) {
   EventFile file = open();
   const std::vector<Fields> all = events(file);
@@ -107,6 +93,13 @@ TEST_F(EventFileTest, Scalar) {
   EXPECT_EQ(events(file).back().number(2), 300U);
   EXPECT_EQ(last_value(file).text(1), "loss/total");
   EXPECT_EQ(last_value(file).real32(2), 0.5F);
+}
+
+TEST_F(EventFileTest, ZerosAreWritten) {
+  EventFile file = open();
+  file.scalar("loss/total", 0, 0);
+  EXPECT_EQ(events(file).back().number(2), 0U);
+  EXPECT_EQ(last_value(file).real32(2), 0);
 }
 
 TEST_F(EventFileTest, ScalarThatIsNotANumberIsKept) {

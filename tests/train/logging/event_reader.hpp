@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include <google/protobuf/unknown_field_set.h>
+
 namespace alight::test {
 
-/// A decoded protobuf message: all values of every field number, without a schema. Written against the encoding's
-/// description, not against WireMessage.
+/// A decoded protobuf message: all values of every field number, without event_file.proto, whose numbers are under test.
 struct Fields {
   std::map<int, std::vector<std::uint64_t>> numbers;  ///< varint, fixed64 and fixed32, as bits
   std::map<int, std::vector<std::string>> texts;      ///< strings, bytes, messages, packed values
@@ -38,39 +39,28 @@ inline std::uint64_t read_fixed(const std::string& bytes, std::size_t at, int si
   return value;
 }
 
-inline std::uint64_t read_varint(const std::string& bytes, std::size_t& at) {
-  std::uint64_t value = 0;
-  for (unsigned shift = 0;; shift += 7) {
-    const auto byte = static_cast<unsigned char>(bytes.at(at++));
-    value |= static_cast<std::uint64_t>(byte & 0x7fU) << shift;
-    if (byte < 0x80) return value;
-  }
-}
-
 inline Fields decode(const std::string& bytes) {
+  using google::protobuf::UnknownField;
+  google::protobuf::UnknownFieldSet message;
+  if (!message.ParseFromString(bytes)) throw std::runtime_error("no protobuf message");
   Fields fields;
-  for (std::size_t at = 0; at < bytes.size();) {
-    const std::uint64_t tag = read_varint(bytes, at);
-    const int field = static_cast<int>(tag >> 3U);
-    const int size = (tag & 7U) == 1 ? 8 : 4;
-    switch (tag & 7U) {
-      case 0:
-        fields.numbers[field].push_back(read_varint(bytes, at));
+  for (int i = 0; i < message.field_count(); ++i) {
+    const UnknownField& field = message.field(i);
+    switch (field.type()) {
+      case UnknownField::TYPE_VARINT:
+        fields.numbers[field.number()].push_back(field.varint());
         break;
-      case 2: {
-        const std::uint64_t length = read_varint(bytes, at);
-        if (at + length > bytes.size()) throw std::runtime_error("field ends outside of its message");
-        fields.texts[field].push_back(bytes.substr(at, length));
-        at += length;
+      case UnknownField::TYPE_FIXED32:
+        fields.numbers[field.number()].push_back(field.fixed32());
         break;
-      }
-      case 1:
-      case 5:
-        fields.numbers[field].push_back(read_fixed(bytes, at, size));
-        at += static_cast<std::size_t>(size);
+      case UnknownField::TYPE_FIXED64:
+        fields.numbers[field.number()].push_back(field.fixed64());
+        break;
+      case UnknownField::TYPE_LENGTH_DELIMITED:
+        fields.texts[field.number()].push_back(field.length_delimited());
         break;
       default:
-        throw std::runtime_error("unknown wire type");
+        throw std::runtime_error("a group, which TensorBoard has none of");
     }
   }
   return fields;
