@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "geometry/frames.hpp"
+#include "tests/infer/health/fault_names.hpp"
 
 namespace alight {
 namespace {
+
+using test::fault_names;
+using test::FaultNames;
 
 constexpr double kMetresOfADegree = 111'320;  // of latitude
 
@@ -20,16 +24,6 @@ AttitudeSample attitude(double t_s, double yaw_deg) {
           Eigen::Quaterniond(Eigen::AngleAxisd(to_radians(yaw_deg), Eigen::Vector3d::UnitZ()))};
 }
 
-std::vector<std::string> faults(const PoseWatch& watch) {
-  std::vector<HealthFinding> findings;
-  watch.report(findings);
-  std::vector<std::string> names;
-  for (const HealthFinding& finding : findings) names.push_back(finding.sensor + " " + finding.fault);
-  return names;
-}
-
-using Faults = std::vector<std::string>;
-
 TEST(PoseWatch, AFastTurningVehicleIsHealthy) {
   PoseWatch watch({});
   for (int i = 0; i < 300; ++i) {
@@ -39,24 +33,24 @@ TEST(PoseWatch, AFastTurningVehicleIsHealthy) {
       EXPECT_FALSE(watch.add(position(t_s, 15 * t_s + 0.5 * 8 * std::sin(t_s))));
     }
   }
-  EXPECT_EQ(faults(watch), Faults{});
+  EXPECT_EQ(fault_names(watch), FaultNames{});
 }
 
 TEST(PoseWatch, ALeapOfAMetreIsNamedForASecond) {
   PoseWatch watch({});
   for (int i = 0; i < 100; ++i) watch.add(position(0.02 * i, 3 * 0.02 * i));
   EXPECT_TRUE(watch.add(position(2.0, 6.0 + 1.0)));
-  EXPECT_EQ(faults(watch), Faults{"position jump"});
+  EXPECT_EQ(fault_names(watch), FaultNames{"position jump"});
   EXPECT_FALSE(watch.usable());
   for (int i = 101; i < 160; ++i) EXPECT_FALSE(watch.add(position(0.02 * i, 3 * 0.02 * i + 1.0))) << i;
-  EXPECT_EQ(faults(watch), Faults{});
+  EXPECT_EQ(fault_names(watch), FaultNames{});
 }
 
 TEST(PoseWatch, ATurnInNoTimeIsNamed) {
   PoseWatch watch({});
   for (int i = 0; i < 100; ++i) watch.add(attitude(0.01 * i, 0));
   EXPECT_TRUE(watch.add(attitude(1.0, 10)));
-  EXPECT_EQ(faults(watch), Faults{"attitude jump"});
+  EXPECT_EQ(fault_names(watch), FaultNames{"attitude jump"});
 }
 
 TEST(PoseWatch, ValuesThatStopVaryingAreFrozenAndOnesThatNeverDidAreNot) {
@@ -69,8 +63,8 @@ TEST(PoseWatch, ValuesThatStopVaryingAreFrozenAndOnesThatNeverDidAreNot) {
     constant.add(attitude(t_s, 0));
     constant.add(position(t_s, 0));
   }
-  EXPECT_EQ(faults(varied), (Faults{"attitude frozen", "position frozen"}));
-  EXPECT_EQ(faults(constant), Faults{});
+  EXPECT_EQ(fault_names(varied), (FaultNames{"attitude frozen", "position frozen"}));
+  EXPECT_EQ(fault_names(constant), FaultNames{});
 }
 
 }  // namespace

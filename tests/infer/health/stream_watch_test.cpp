@@ -3,21 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "geometry/frames.hpp"
+#include "tests/infer/health/fault_names.hpp"
 
 namespace alight {
 namespace {
 
+using test::fault_names;
+using test::FaultNames;
+
 std::int64_t at(double s) { return to_nanoseconds(s); }
-
-std::vector<std::string> faults_found(const StreamWatch& watch) {
-  std::vector<HealthFinding> findings;
-  watch.report(findings);
-  std::vector<std::string> names;
-  for (const HealthFinding& finding : findings) names.push_back(finding.sensor + " " + finding.fault);
-  return names;
-}
-
-using FaultNames = std::vector<std::string>;
 
 TEST(MessageClock, OneStreamThatLeapsDoesNotMoveIt) {
   MessageClock clock;
@@ -37,7 +31,7 @@ TEST(StreamWatch, SilenceIsALossAndEndsWithTheNextMessage) {
   watch.pass(at(0.74), 0);
   EXPECT_TRUE(watch.usable());
   watch.pass(at(0.76), 0);
-  EXPECT_EQ(faults_found(watch), FaultNames{"left camera lost"});
+  EXPECT_EQ(fault_names(watch), FaultNames{"left camera lost"});
   watch.add(at(0.8), at(0.8), 0);
   watch.pass(at(0.8), 0);
   EXPECT_TRUE(watch.usable());
@@ -56,8 +50,8 @@ TEST(StreamWatch, ANeededSensorIsMissedFromTheStartAndAnotherIsNot) {
   StreamWatch needed({}, Stream::kLidar, true);
   StreamWatch other({}, Stream::kHeight, false);
   for (StreamWatch* watch : {&needed, &other}) watch->pass(at(1.1), 0);
-  EXPECT_EQ(faults_found(needed), FaultNames{"lidar lost"});
-  EXPECT_EQ(faults_found(other), FaultNames{});
+  EXPECT_EQ(fault_names(needed), FaultNames{"lidar lost"});
+  EXPECT_EQ(fault_names(other), FaultNames{});
 }
 
 TEST(StreamWatch, AWrongClockIsNotBelievedAndNamed) {
@@ -66,7 +60,7 @@ TEST(StreamWatch, AWrongClockIsNotBelievedAndNamed) {
     EXPECT_TRUE(watch.add(at(9.9), at(9.9), 0));
     for (int i = 0; i < 3; ++i) EXPECT_FALSE(watch.add(at(10 + 0.1 * i + off_s), at(10 + 0.1 * i), 0));
     watch.pass(at(10.5), 0);
-    EXPECT_EQ(faults_found(watch), FaultNames{"lidar clock jump"}) << off_s;
+    EXPECT_EQ(fault_names(watch), FaultNames{"lidar clock jump"}) << off_s;
   }
 }
 
@@ -79,8 +73,8 @@ TEST(StreamWatch, MixedUpMessagesAreNamedAndOneIsForgiven) {
     const double swapped_s = 0.01 * (i % 2 == 0 ? i - 1 : i + 1);
     often.add(at(swapped_s), at(0.01 * i), 0);
   }
-  EXPECT_EQ(faults_found(once), FaultNames{});
-  EXPECT_EQ(faults_found(often), FaultNames{"attitude out of order"});
+  EXPECT_EQ(fault_names(once), FaultNames{});
+  EXPECT_EQ(fault_names(often), FaultNames{"attitude out of order"});
 }
 
 }  // namespace
