@@ -6,9 +6,11 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <sstream>
+#include <optional>
 
 #include <yaml-cpp/yaml.h>
+
+#include "foundation/file_content.hpp"
 
 namespace alight {
 namespace config_detail {
@@ -141,12 +143,9 @@ ConfigNode parse_text(const std::string& text, const std::string& name) {
 }
 
 ConfigNode parse_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw ConfigError(path.string() + ": cannot be opened; check the path");
-  std::stringstream text;
-  text << stream.rdbuf();
-  return parse_text(text.str(), path.string());
+  const std::optional<std::string> text = file_content(path);
+  if (!text) throw ConfigError(path.string() + ": cannot be opened; check the path");
+  return parse_text(*text, path.string());
 }
 
 }  // namespace config_detail

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +16,7 @@
 #include "closed_loop/landing/landing_pictures.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
+#include "foundation/file_content.hpp"
 #include "foundation/output_folder.hpp"
 #include "pictures/picture_file.hpp"
 #include "sim/counter_random.hpp"
@@ -55,9 +58,9 @@ std::string plan_json(const CampaignPlan& plan) {
 }
 
 std::string read_file(const fs::path& path) {
-  std::ifstream stream(path);
-  if (!stream) throw DataError(path.string() + ": cannot be read; is this the folder of a campaign?");
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::optional<std::string> content = file_content(path);
+  if (!content) throw DataError(path.string() + ": cannot be read; is this the folder of a campaign?");
+  return std::move(*content);
 }
 
 CampaignPlan read_plan(const fs::path& path) {

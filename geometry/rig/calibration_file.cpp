@@ -1,11 +1,12 @@
 #include "geometry/rig/calibration_file.hpp"
 
 #include <fstream>
-#include <sstream>
+#include <optional>
 
 #include <yaml-cpp/yaml.h>
 
 #include "foundation/config_reader.hpp"
+#include "foundation/file_content.hpp"
 #include "geometry/frames.hpp"
 #include "geometry/rig/kalibr_camera.hpp"
 #include "geometry/rig/ros_lens.hpp"
@@ -18,11 +19,9 @@ namespace {
 class ForeignFile {
  public:
   explicit ForeignFile(fs::path path) : path_(std::move(path)) {
-    std::ifstream stream(path_, std::ios::binary);
-    if (!stream || fs::is_directory(path_)) fail("cannot be opened; check calibration_file of the rig");
-    std::stringstream text;
-    text << stream.rdbuf();
-    std::string yaml = text.str();
+    std::optional<std::string> content = file_content(path_);
+    if (!content) fail("cannot be opened; check calibration_file of the rig");
+    std::string& yaml = *content;
     // OpenCV writes a version with a colon, which no YAML has; a comment keeps the lines where they are.
     if (yaml.rfind("%YAML:", 0) == 0) yaml[0] = '#';
     root_ = config_detail::parse_text(yaml, path_.string()).yaml();

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "foundation/errors.hpp"
+#include "foundation/file_content.hpp"
 
 namespace alight {
 namespace fs = std::filesystem;
@@ -84,9 +85,9 @@ std::vector<fs::path> segments_of(const fs::path& folder) {
 }
 
 void read_segment(const fs::path& path, SegmentLogContents& contents) {
-  std::ifstream stream(path, std::ios::binary);
-  const std::string data((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (!stream) throw DataError(path.string() + ": cannot be read");
+  const std::optional<std::string> content = file_content(path);
+  if (!content) throw DataError(path.string() + ": cannot be read");
+  const std::string& data = *content;
   const std::string magic(kMagic, sizeof kMagic);
   std::size_t at = 0;
   while (at < data.size()) {

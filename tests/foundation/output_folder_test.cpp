@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "foundation/errors.hpp"
+#include "foundation/file_content.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight {
@@ -59,6 +60,16 @@ TEST_F(OutputFolderTest, AtomicWriteReplacesWhole) {
   stream >> text;
   EXPECT_EQ(text, "two");
   EXPECT_THROW(write_file_atomically(root_ / "missing" / "f", "x"), DataError);
+}
+
+TEST_F(OutputFolderTest, AFilesContentIsEveryByteAndNoneOfWhatCannotBeRead) {
+  const std::string bytes("a\0\r\n\n", 5);
+  write_file_atomically(root_ / "file", bytes);
+  EXPECT_EQ(file_content(root_ / "file"), bytes);
+  write_file_atomically(root_ / "empty", "");
+  EXPECT_EQ(file_content(root_ / "empty"), "");
+  EXPECT_FALSE(file_content(root_ / "absent"));
+  EXPECT_FALSE(file_content(root_)) << "a folder";
 }
 
 }  // namespace

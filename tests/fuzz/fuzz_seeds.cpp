@@ -11,6 +11,7 @@
 #include "sensors/bag/bag_messages.hpp"
 #include "sensors/messages/decoders.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace {
 
@@ -65,7 +66,7 @@ void write_bags(const fs::path& output) {
     for (const rosbag::MessageInstance& message : view)
       out.write(message.getTopic(), message.getTime(), message);
   }
-  std::string killed = testing::read_bytes(plain);
+  std::string killed = test::file_text(plain);
   killed.replace(killed.find("index_pos=") + 10, 8, std::string(8, '\0'));
   testing::write_bytes(output / "killed.bag", killed);
 }

@@ -1,12 +1,12 @@
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "foundation/config_reader.hpp"
 #include "infer/replay/replay.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace alight {
 namespace {
@@ -19,12 +19,11 @@ std::string header_of(const std::string& text) { return text.substr(0, text.find
 template <class Config>
 void expect_written_out(const std::string& name) {
   const std::string path = std::string(ALIGHT_SOURCE_DIR) + "/configs/" + name;
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  const std::string wanted = header_of(text.str()) + print_config(Config{});
-  ASSERT_NE(header_of(text.str()).find("defaults, written out"), std::string::npos) << path;
+  const std::string text = test::file_text(path);
+  const std::string wanted = header_of(text) + print_config(Config{});
+  ASSERT_NE(header_of(text).find("defaults, written out"), std::string::npos) << path;
   if (std::getenv("ALIGHT_WRITE_DEFAULTS") != nullptr) std::ofstream(path) << wanted;
-  EXPECT_EQ(text.str(), wanted) << path << ": run this test with ALIGHT_WRITE_DEFAULTS=1";
+  EXPECT_EQ(text, wanted) << path << ": run this test with ALIGHT_WRITE_DEFAULTS=1";
 }
 
 TEST(WrittenDefaults, OfTheOnboardProgram) { expect_written_out<ReplayConfig>("infer/default.yaml"); }

@@ -13,6 +13,7 @@
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
 #include "tests/models/tiny_net.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight {
@@ -27,10 +28,6 @@ class Checkpoint : public testing::Test {
  protected:
   void SetUp() override { torch::manual_seed(7); }
 
-  static std::string bytes(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
   template <class Function>
   static std::string data_error(Function function) {
     try {
@@ -82,7 +79,7 @@ TEST_F(Checkpoint, EqualNetworksAreEqualFiles) {
     train_step(net, adam, 1);
     save_checkpoint(folder_ / name, net, {}, {net, &adam});
   }
-  EXPECT_EQ(bytes(folder_ / "a.pt"), bytes(folder_ / "b.pt"));
+  EXPECT_EQ(test::file_text(folder_ / "a.pt"), test::file_text(folder_ / "b.pt"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 2);
 }
 
@@ -146,7 +143,7 @@ TEST_F(Checkpoint, WithoutTrainingStateNothingIsResumed) {
 TEST_F(Checkpoint, FullDiskLeavesTheFileBeforeAsItWas) {
   DepthCompletionNet net(tiny_config());
   save_checkpoint(folder_ / "net.pt", net);
-  const std::string before = bytes(folder_ / "net.pt");
+  const std::string before = test::file_text(folder_ / "net.pt");
   rlimit unlimited{};
   getrlimit(RLIMIT_FSIZE, &unlimited);
   const rlimit small{1000, unlimited.rlim_max};
@@ -156,7 +153,7 @@ TEST_F(Checkpoint, FullDiskLeavesTheFileBeforeAsItWas) {
       data_error([&] { save_checkpoint(folder_ / "net.pt", net, {1, 1, "x", 0, {}}); });
   setrlimit(RLIMIT_FSIZE, &unlimited);
   EXPECT_THAT(message, HasSubstr("net.pt"));
-  EXPECT_EQ(bytes(folder_ / "net.pt"), before);
+  EXPECT_EQ(test::file_text(folder_ / "net.pt"), before);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
 }
 

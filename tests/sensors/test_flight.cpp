@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "geometry/frames.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace alight::testing {
 namespace fs = std::filesystem;
@@ -204,18 +204,11 @@ std::vector<LogMessage> read_all(FlightLog& log) {
   return messages;
 }
 
-std::string read_bytes(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 std::vector<std::pair<std::string, std::string>> read_tree(const fs::path& dir) {
   std::vector<std::pair<std::string, std::string>> files;
   for (const auto& entry : fs::recursive_directory_iterator(dir)) {
     if (entry.is_regular_file())
-      files.emplace_back(fs::relative(entry.path(), dir).string(), read_bytes(entry.path()));
+      files.emplace_back(fs::relative(entry.path(), dir).string(), test::file_text(entry.path()));
   }
   std::sort(files.begin(), files.end());
   return files;

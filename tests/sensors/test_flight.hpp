@@ -79,8 +79,7 @@ void write_flight(const std::filesystem::path& path, const FlightOptions& option
 
 std::vector<LogMessage> read_all(FlightLog& log);
 
-/// The bytes of a file, and of all files below a folder by relative path.
-std::string read_bytes(const std::filesystem::path& path);
+/// The bytes of all files below a folder, by relative path.
 std::vector<std::pair<std::string, std::string>> read_tree(const std::filesystem::path& dir);
 void write_bytes(const std::filesystem::path& path, const std::string& bytes);
 

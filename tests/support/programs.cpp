@@ -5,13 +5,14 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <sys/wait.h>
+
+#include "tests/support/file_text.hpp"
 
 namespace alight::test {
 namespace {
@@ -90,10 +91,6 @@ int Program::wait(double timeout_s) {
   return exit_code_;
 }
 
-std::string Program::said() const {
-  std::ostringstream text;
-  text << std::ifstream(log_).rdbuf();
-  return text.str();
-}
+std::string Program::said() const { return file_text(log_); }
 
 }  // namespace alight::test

@@ -1,10 +1,10 @@
 #include <fstream>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "models/checkpoint.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/tools/tool_runner.hpp"
 
 /// alight-evaluate on a short simulated flight, as a user runs it.
@@ -14,12 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-std::string read_file(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 std::string on_quick(const std::string& arguments) {
   return "alight-evaluate --data " + quick_dataset().string() + " " + arguments;
@@ -36,7 +30,7 @@ TEST(Evaluate, WritesATableAndPicturesOfANetworkBesideTheBaselines) {
                                         (folder / "table.md").string() + " --every 5 --pictures " +
                                         (folder / "worst").string() + " --picture-count 1"));
   ASSERT_EQ(run.exit_code, 0) << run.out;
-  const std::string table = read_file(folder / "table.md");
+  const std::string table = file_text(folder / "table.md");
   for (const char* method :
        {"net.pt", "nearest", "Delaunay", "Delaunay, inverse depth", "IP-Basic", "altitude plane"}) {
     EXPECT_THAT(table, HasSubstr(std::string(method) + " | ")) << method;
@@ -80,10 +74,10 @@ TEST(EvaluateSelf, WritesADocumentAndScores) {
                (folder / "net.pt").string() + " --windows 0,0.1 --every 20 --output " +
                (folder / "self.md").string() + " --scores " + (folder / "scores.csv").string());
   ASSERT_EQ(run.exit_code, 0) << run.out;
-  EXPECT_THAT(read_file(folder / "self.md"),
+  EXPECT_THAT(file_text(folder / "self.md"),
               AllOf(HasSubstr("--windows 0,0.1"), HasSubstr("| wrong_height |"),
                     HasSubstr("| hold-out median |"), HasSubstr("| both |")));
-  EXPECT_THAT(read_file(folder / "scores.csv"), HasSubstr("\nquick,0,0.1,delaunay,"));
+  EXPECT_THAT(file_text(folder / "scores.csv"), HasSubstr("\nquick,0,0.1,delaunay,"));
 }
 
 TEST(EvaluateSelf, MistakesAreNamedBeforeTheWorkBegins) {

@@ -1,5 +1,4 @@
 #include <fstream>
-#include <sstream>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -10,6 +9,7 @@
 
 #include "foundation/config_reader.hpp"
 #include "models/checkpoint.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/tools/tool_runner.hpp"
 
 /// Bad input, one test a fault: the message names file and cause, the exit code tells usage (2) from failure (1), and
@@ -19,13 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-std::string content_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 void write_file(const fs::path& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
@@ -106,7 +99,7 @@ TEST_F(LogFaults, BagWithoutMessages) {
 }
 
 TEST_F(LogFaults, TruncatedBag) {
-  const std::string whole = content_of(quick_flight() / "quick.bag");
+  const std::string whole = file_text(quick_flight() / "quick.bag");
   write_file(folder_ / "cut.bag", whole.substr(0, whole.size() * 2 / 3));
   expect_log_refused(folder_ / "cut.bag", {"cut.bag"});
 }
@@ -129,12 +122,12 @@ TEST_F(LogFaults, OutputFolderThatExistsIsNotTouched) {
     EXPECT_EQ(run.exit_code, 1) << command << "\n" << run.out;
     EXPECT_THAT(run.out, HasSubstr("exists already"));
   }
-  EXPECT_EQ(content_of(out / "precious"), "x");
+  EXPECT_EQ(file_text(out / "precious"), "x");
   EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 1);
 }
 
 TEST_F(LogFaults, RigWithANonRotationMatrix) {
-  std::string rig = content_of(std::string(ALIGHT_SOURCE_DIR) + "/configs/rigs/paper.yaml");
+  std::string rig = file_text(std::string(ALIGHT_SOURCE_DIR) + "/configs/rigs/paper.yaml");
   const std::string row = "- [0, -1, 0, 0.04]";
   rig.replace(rig.find(row), row.size(), "- [0, -2, 0, 0.04]");
   write_file(folder_ / "bad_rig.yaml", rig);

@@ -2,12 +2,12 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/file_text.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/tools/tool_runner.hpp"
 
@@ -18,12 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-std::string file_text(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// A network and a run that take seconds.
 fs::path small_training(const fs::path& folder, const std::string& more = "") {

@@ -14,6 +14,7 @@
 #include "foundation/errors.hpp"
 #include "models/checkpoint.hpp"
 #include "tests/models/tiny_net.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/train/data/memory_source.hpp"
 
@@ -39,12 +40,7 @@ TrainConfig tiny_training() {
 
 class TrainerTest : public testing::Test {
  protected:
-  std::string bytes(const std::string& name) const {
-    std::ifstream stream(root_ / name, std::ios::binary);
-    std::stringstream content;
-    content << stream.rdbuf();
-    return content.str();
-  }
+  std::string bytes(const std::string& name) const { return test::file_text(root_ / name); }
   void train(const TrainConfig& config, const std::string& run) const {
     MemorySource training = scenes(6);
     MemorySource validation = scenes(2, 50);

@@ -1,10 +1,11 @@
 #include "train/logging/run_folder.hpp"
 
 #include <cstdlib>
-#include <sstream>
+#include <optional>
 #include <system_error>
 
 #include "foundation/errors.hpp"
+#include "foundation/file_content.hpp"
 #include "foundation/output_folder.hpp"
 
 namespace alight {
@@ -36,11 +37,9 @@ void RunFolder::write(const std::string& name, const std::string& content) const
 }
 
 std::string RunFolder::read(const std::string& name) const {
-  std::ifstream stream(file(name), std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  if (!stream) throw DataError(file(name).string() + ": cannot be read");
-  return content.str();
+  const std::optional<std::string> content = file_content(file(name));
+  if (!content) throw DataError(file(name).string() + ": cannot be read");
+  return *content;
 }
 
 void RunFolder::append_metrics(const std::vector<std::string>& cells) {

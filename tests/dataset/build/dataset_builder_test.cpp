@@ -10,6 +10,7 @@
 #include "geometry/depth_map.hpp"
 #include "geometry/rig/find_rig_file.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace alight::testing {
 namespace {
@@ -128,7 +129,7 @@ TEST_F(DatasetBuilder, ExistingOutputIsKept) {
   fs::create_directories(output_);
   write_bytes(output_ / "mine.txt", "mine");
   EXPECT_THAT(message_of<DataError>([&] { build(output_); }), HasSubstr("exists"));
-  EXPECT_EQ(read_bytes(output_ / "mine.txt"), "mine");
+  EXPECT_EQ(test::file_text(output_ / "mine.txt"), "mine");
 }
 
 TEST_F(DatasetBuilder, ALogWithoutASampleSaysWhatWasDropped) {

@@ -12,6 +12,7 @@
 #include "foundation/child_exit.hpp"
 #include "foundation/errors.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/programs.hpp"
 
 namespace alight::testing {
@@ -104,7 +105,7 @@ TEST_F(DatasetUpdate, TheContentOfALogDecidesNotItsDate) {
   build({log("a"), log("b")});
   fs::last_write_time(log("a"), fs::file_time_type::clock::now() + std::chrono::hours(1));
   EXPECT_THAT(build({log("a"), log("b")}).built, IsEmpty());
-  std::string bytes = read_bytes(log("b"));
+  std::string bytes = test::file_text(log("b"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] + 1);
   write_bytes(log("b"), bytes);
   EXPECT_THAT(build({log("a"), log("b")}).built, ElementsAre("b"));
@@ -117,7 +118,7 @@ TEST_F(DatasetUpdate, TrueDepthThatAppearsRebuilds) {
 }
 
 TEST_F(DatasetUpdate, ALogThatCannotBeReadDoesNotStopTheOthers) {
-  write_bytes(log("b"), read_bytes(log("b")).substr(0, 5000));
+  write_bytes(log("b"), test::file_text(log("b")).substr(0, 5000));
   const BuildResult result = build({log("a"), log("b"), log("c"), folder_.path() / "none.bag"});
   EXPECT_THAT(result.built, ElementsAre("a", "c"));
   EXPECT_THAT(result.failed,

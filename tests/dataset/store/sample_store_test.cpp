@@ -9,6 +9,7 @@
 
 #include "foundation/errors.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace alight::testing {
 namespace {
@@ -80,7 +81,7 @@ class SampleStore : public ::testing::Test {
   }
   /// Replaces a text in a file.
   void edit(const fs::path& file, const std::string& from, const std::string& to) {
-    std::string text = read_bytes(dir_ / file);
+    std::string text = test::file_text(dir_ / file);
     const std::size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos) << text;
     write_bytes(dir_ / file, text.replace(at, from.size(), to));
@@ -177,7 +178,7 @@ TEST_F(SampleStore, AFlightNameCannotLeaveTheFolder) {
 TEST_F(SampleStore, EveryCutOffPictureIsNamed) {
   for (const char* name : {"left", "right", "depth", "offset", "dense"}) {
     const fs::path path = dir_ / "a" / name / "000000.png";
-    const std::string whole = read_bytes(path);
+    const std::string whole = test::file_text(path);
     for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 40) {
       write_bytes(path, whole.substr(0, size));
       EXPECT_THAT(sample_error(), AllOf(HasSubstr(path.string()), HasSubstr("cut off"))) << size;

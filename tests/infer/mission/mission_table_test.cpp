@@ -2,12 +2,12 @@
 
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "infer/mission/mission_config.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace alight {
 namespace {
@@ -145,10 +145,8 @@ TEST(MissionTable, NoRowLeadsToItsOwnState) {
 }
 
 TEST(MissionTable, TheDocumentationHoldsTheTable) {
-  std::ifstream file(std::string(ALIGHT_SOURCE_DIR) + "/docs/mission.md");
-  std::stringstream page;
-  page << file.rdbuf();
-  EXPECT_NE(page.str().find(mission_tables_markdown()), std::string::npos)
+  const std::string page = test::file_text(ALIGHT_SOURCE_DIR "/docs/mission.md");
+  EXPECT_NE(page.find(mission_tables_markdown()), std::string::npos)
       << "docs/mission.md is out of date; put the output of alight-sim land --print-states in its place:\n"
       << mission_tables_markdown();
 }

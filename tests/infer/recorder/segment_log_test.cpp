@@ -12,6 +12,7 @@
 
 #include "foundation/child_exit.hpp"
 #include "foundation/errors.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -72,8 +73,7 @@ TEST_F(SegmentLog, ATornTailLosesTheLastRecordAlone) {
 /// Wherever a byte flips, in magic, length, checksum or content, the records around it are read.
 TEST_F(SegmentLog, AFlippedByteLosesItsRecordAndIsNamed) {
   write(3);
-  std::ifstream in(segment(1), std::ios::binary);
-  const std::string whole((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::string whole = test::file_text(segment(1));
   const std::size_t size = 12 + 9 + 100;
   const std::size_t second = whole.size() - 2 * size;
   for (std::size_t at = second; at < second + size; ++at) {

@@ -13,6 +13,7 @@
 #include "infer/replay/stage_benchmark.hpp"
 #include "tests/infer/bag_of_flight.hpp"
 #include "tests/infer/fakes.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight {
@@ -34,13 +35,6 @@ std::shared_ptr<DepthPredictor> right_predictor() {
   return std::make_shared<fakes::FakePredictor>([](int) { return kFlown_m; });
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 class Replay : public testing::Test {
  protected:
   void SetUp() override {
@@ -57,7 +51,7 @@ class Replay : public testing::Test {
 TEST_F(Replay, WritesOneLineAnImagePicturesAndTheConfiguration) {
   const ReplaySummary summary =
       replay(small_replay(), rig_, folder_ / "flight.bag", folder_ / "out", right_predictor());
-  std::istringstream lines(text_of(folder_ / "out" / "results.jsonl"));
+  std::istringstream lines(test::file_text(folder_ / "out" / "results.jsonl"));
   std::int64_t count = 0;
   std::int64_t accepted = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -107,8 +101,9 @@ TEST_F(Replay, TwiceIsTheSameByteForByte) {
   for (const char* name : {"a", "b"}) {
     replay(small_replay(), rig_, folder_ / "flight.bag", folder_ / name, right_predictor());
   }
-  EXPECT_EQ(text_of(folder_ / "a" / "results.jsonl"), text_of(folder_ / "b" / "results.jsonl"));
-  EXPECT_EQ(text_of(folder_ / "a" / "method.png"), text_of(folder_ / "b" / "method.png"));
+  EXPECT_EQ(test::file_text(folder_ / "a" / "results.jsonl"),
+            test::file_text(folder_ / "b" / "results.jsonl"));
+  EXPECT_EQ(test::file_text(folder_ / "a" / "method.png"), test::file_text(folder_ / "b" / "method.png"));
 }
 
 TEST_F(Replay, RefusesAFolderThatExistsAndLeavesNothingBehindOnFailure) {

@@ -6,6 +6,7 @@
 #include "foundation/errors.hpp"
 #include "sensors/bag/bag_check.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace alight::testing {
 namespace {
@@ -55,7 +56,7 @@ TEST_F(BagDamage, ABagWithoutMessagesSaysSo) {
 }
 
 TEST_F(BagDamage, EveryTruncationIsADataError) {
-  const std::string whole = read_bytes(path_);
+  const std::string whole = test::file_text(path_);
   ASSERT_EQ(read_error(path_), "");
   for (int i = 0; i < 40; ++i) {
     const std::size_t size =
@@ -68,7 +69,7 @@ TEST_F(BagDamage, EveryTruncationIsADataError) {
 /// Flipped bytes anywhere: the log is read or refused, the process never dies of it. Flips inside a message
 /// may go unnoticed, since bags carry no checksum; flips of lengths must not.
 TEST_F(BagDamage, FlippedBytesNeverCrash) {
-  const std::string whole = read_bytes(path_);
+  const std::string whole = test::file_text(path_);
   std::mt19937 random(7);
   int refused = 0;
   for (int i = 0; i < 300; ++i) {

@@ -11,6 +11,7 @@
 #include "foundation/errors.hpp"
 #include "sensors/bag/bag_messages.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace alight::testing {
 namespace {
@@ -77,12 +78,12 @@ class BagSalvaging : public ::testing::TestWithParam<rosbag::compression::Compre
 };
 
 TEST_P(BagSalvaging, AKilledRecordersBagGivesEveryMessageInOrder) {
-  write_bytes(killed_, without_index(read_bytes(whole_)));
+  write_bytes(killed_, without_index(test::file_text(whole_)));
   EXPECT_TRUE(content_of(killed_) == content_of(whole_));
 }
 
 TEST_P(BagSalvaging, ACutOneGivesTheMessagesOfItsWholeChunks) {
-  const std::string bytes = without_index(read_bytes(whole_));
+  const std::string bytes = without_index(test::file_text(whole_));
   const std::vector<Content> whole = content_of(whole_);
   std::size_t most = 0;
   for (int i = 3; i < 20; ++i) {
@@ -102,7 +103,7 @@ TEST_P(BagSalvaging, ACutOneGivesTheMessagesOfItsWholeChunks) {
 }
 
 TEST_P(BagSalvaging, TopicsAreChosenAndCounted) {
-  write_bytes(killed_, without_index(read_bytes(whole_)));
+  write_bytes(killed_, without_index(test::file_text(whole_)));
   BagMessages killed(killed_);
   BagMessages whole(whole_);
   EXPECT_EQ(killed.count("/livox/lidar"), whole.count("/livox/lidar"));
@@ -128,7 +129,7 @@ TEST(BagSalvage, WhatIsLostIsCountedInTheSummaryOfTheLog) {
   ScratchFolder folder;
   const fs::path path = folder.path() / "flight.bag";
   write_flight(path);
-  const std::string bytes = without_index(read_bytes(path));
+  const std::string bytes = without_index(test::file_text(path));
   write_bytes(path, bytes.substr(0, bytes.size() - 1000));
   FlightLog log(path, small_rig(), {});
   EXPECT_EQ(log.summary().dropped.count("bytes at the end of a bag without index"), 1u);
@@ -138,7 +139,7 @@ TEST(BagSalvage, NothingWholeIsAnError) {
   ScratchFolder folder;
   const fs::path path = folder.path() / "flight.bag";
   write_flight(path);
-  write_bytes(path, without_index(read_bytes(path)).substr(0, 6000));
+  write_bytes(path, without_index(test::file_text(path)).substr(0, 6000));
   EXPECT_EQ(BagMessages(path).select_all(), 0);
   EXPECT_THAT(message_of<DataError>([&] { FlightLog log(path, small_rig(), {}); }),
               HasSubstr("holds no messages"));

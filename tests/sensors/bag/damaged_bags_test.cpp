@@ -10,6 +10,7 @@
 
 #include "dataset/build/dataset_builder.hpp"
 #include "tests/sensors/test_flight.hpp"
+#include "tests/support/file_text.hpp"
 
 namespace alight::testing {
 namespace {
@@ -85,7 +86,8 @@ TEST(DamagedBags, BecomeErrorsOrSayWhatTheyLost) {
   write_flight(whole, options);
   options.compressed = true;
   write_flight(folder.path() / "jpeg.bag", options);
-  const std::vector<std::string> origins = {read_bytes(whole), read_bytes(folder.path() / "jpeg.bag")};
+  const std::vector<std::string> origins = {test::file_text(whole),
+                                            test::file_text(folder.path() / "jpeg.bag")};
 
   DatasetConfig config;
   config.depth_map.crop_px = 32;

@@ -30,6 +30,7 @@
 #include "sim/record/sensor_messages.hpp"
 #include "sim/record/simulated_flight.hpp"
 #include "sim/sensors/livox_scan.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -42,13 +43,6 @@ constexpr const char* kLeftTopic = "/mynteye/left/image_raw/compressed";
 constexpr const char* kRightTopic = "/mynteye/right/image_raw/compressed";
 constexpr const char* kLidarTopic = "/livox/lidar";
 constexpr std::int64_t kStart_ns = 1'700'000'000 * kNanosecondsPerSecond;
-
-std::string bytes(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// The paper's rig with a quarter of the resolution: the same geometry at a sixteenth of the time.
 Rig small_rig() {
@@ -99,18 +93,18 @@ std::int64_t stamp_ns(const Message& message) {
 TEST_F(FlightRecorderTest, SameSeedGivesTheSameBytesWithAnyNumberOfThreads) {
   record(config({"recorder.threads=1"}), "one");
   record(config({"recorder.threads=3"}), "three");
-  EXPECT_EQ(bytes(bag_path("one")), bytes(bag_path("three")));
+  EXPECT_EQ(test::file_text(bag_path("one")), test::file_text(bag_path("three")));
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(truth_path("one"))) {
     const fs::path relative = fs::relative(entry.path(), truth_path("one"));
     if (!entry.is_regular_file() || relative == "truth.yaml")
       continue;  // that one holds the number of threads
-    EXPECT_EQ(bytes(entry.path()), bytes(truth_path("three") / relative)) << relative;
+    EXPECT_EQ(test::file_text(entry.path()), test::file_text(truth_path("three") / relative)) << relative;
     ++files;
   }
   EXPECT_EQ(files, 20U + 20U + 2U);
   record(config({"flights.0.seed=8"}), "other");
-  EXPECT_NE(bytes(bag_path("one")), bytes(bag_path("other")));
+  EXPECT_NE(test::file_text(bag_path("one")), test::file_text(bag_path("other")));
 }
 
 TEST_F(FlightRecorderTest, RatesAndCountsAreAsConfigured) {
@@ -187,7 +181,7 @@ Trajectory read_poses(const fs::path& bag) {
 TEST_F(FlightRecorderTest, AReaderGetsTheTrueTrajectory) {
   record(config({"sensors.noise=off"}));
   const Trajectory trajectory = read_poses(bag_path());
-  std::istringstream rows(bytes(truth_path() / "trajectory.csv"));
+  std::istringstream rows(test::file_text(truth_path() / "trajectory.csv"));
   std::string row;
   std::getline(rows, row);
   EXPECT_EQ(row, "t_ns,x_m,y_m,z_m,qw,qx,qy,qz");
@@ -261,12 +255,12 @@ TEST_F(FlightRecorderTest, RawImagesAreTheOtherFormat) {
 TEST_F(FlightRecorderTest, OverwritesNothingAndLeavesNothingBehind) {
   const SimConfig c = config({"flights.0.plan.duration_s=0.2"});
   record(c);
-  const std::string before = bytes(bag_path());
+  const std::string before = test::file_text(bag_path());
   EXPECT_THROW(FlightRecorder(c, folder_ / "out").refuse_existing(), DataError);
   EXPECT_THROW(record(c), DataError);
   fs::remove_all(truth_path());
   EXPECT_THROW(record(c), DataError);
-  EXPECT_EQ(bytes(bag_path()), before);
+  EXPECT_EQ(test::file_text(bag_path()), before);
   for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
     EXPECT_EQ(entry.path().filename(), "quick.bag");
   }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -9,6 +8,7 @@
 
 #include "foundation/config_reader.hpp"
 #include "models/checkpoint.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/reserved_port.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -29,12 +29,7 @@ class DistributedTrainingTest : public testing::Test {
   DistributedTrainingTest() { test::write_tiny_dataset(root_ / "data", 10); }
 
   std::string path(const std::string& name) const { return (root_ / name).string(); }
-  std::string read(const std::string& name) const {
-    std::ifstream stream(root_ / name);
-    std::stringstream text;
-    text << stream.rdbuf();
-    return text.str();
-  }
+  std::string read(const std::string& name) const { return test::file_text(root_ / name); }
   /// scripts/cluster/launch.sh. @returns the exit code; what it said is in <root>/log
   int launch(int processes, const std::string& arguments) const {
     return test::run_command("ALIGHT_TRAIN=" ALIGHT_BINARY_DIR "/bin/alight-train " ALIGHT_SOURCE_DIR

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "foundation/errors.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "train/evaluation/table_markdown.hpp"
 
@@ -84,9 +84,7 @@ TEST(Table, TheExtensionChoosesTheFormat) {
                                    {"t.csv", to_csv(small_report())},
                                    {"t.json", to_json(small_report())}}) {
     write_table(small_report(), dir / file);
-    std::stringstream written;
-    written << std::ifstream(dir / file).rdbuf();
-    EXPECT_EQ(written.str(), text) << file;
+    EXPECT_EQ(test::file_text(dir / file), text) << file;
   }
   EXPECT_THROW(check_table_path(dir / "t.txt"), ConfigError);
   EXPECT_THROW(check_table_path(dir / "t"), ConfigError);

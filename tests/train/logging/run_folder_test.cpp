@@ -1,10 +1,9 @@
 #include "train/logging/run_folder.hpp"
 
-#include <sstream>
-
 #include <gtest/gtest.h>
 
 #include "foundation/errors.hpp"
+#include "tests/support/file_text.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace alight {
@@ -14,12 +13,7 @@ namespace fs = std::filesystem;
 
 class RunFolderTest : public testing::Test {
  protected:
-  std::string text(const std::string& name) const {
-    std::ifstream stream(path_ / name);
-    std::stringstream content;
-    content << stream.rdbuf();
-    return content.str();
-  }
+  std::string text(const std::string& name) const { return test::file_text(path_ / name); }
   const test::ScratchFolder scratch_;
   const fs::path path_ = scratch_ / "run";
 };
