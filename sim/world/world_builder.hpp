@@ -8,8 +8,8 @@
 #include "sim/objects/terrain_mesh.hpp"
 #include "sim/objects/triangle_mesh.hpp"
 #include "sim/random.hpp"
+#include "sim/spec/world_looks.hpp"
 #include "sim/world/world.hpp"
-#include "sim/world/world_looks.hpp"
 
 namespace alight::sim {
 

@@ -1,4 +1,4 @@
-#include "sim/world/hardship.hpp"
+#include "sim/spec/hardship.hpp"
 
 #include <opencv2/imgproc.hpp>
 

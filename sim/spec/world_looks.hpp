@@ -3,7 +3,7 @@
 #include <array>
 
 #include "sim/objects/material.hpp"
-#include "sim/world/world.hpp"
+#include "sim/spec/world_config.hpp"
 
 namespace alight::sim {
 

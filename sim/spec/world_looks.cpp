@@ -1,4 +1,4 @@
-#include "sim/world/world_looks.hpp"
+#include "sim/spec/world_looks.hpp"
 
 namespace alight::sim {
 namespace {
