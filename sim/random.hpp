@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "geometry/frames.hpp"
 
@@ -45,6 +46,11 @@ class Random {
   /// 0 .. count - 1
   int below(int count) { return static_cast<int>(uniform() * count); }
   bool chance(double probability) { return uniform() < probability; }
+  /// One of several, of which there has to be one at least.
+  template <class T>
+  const T& pick(const std::vector<T>& from) {
+    return from[static_cast<std::size_t>(below(static_cast<int>(from.size())))];
+  }
 
  private:
   std::uint64_t state_ = 0;

@@ -14,7 +14,7 @@ constexpr double kFooting_m = 2.0;  // walls reach into the ground
 /// A building in the making: rect coordinates to world, and new surfaces.
 class Builder {
  public:
-  Builder(const BuildingPlan& plan, Random& random, TriangleMesh& mesh, std::vector<Surface>& surfaces)
+  Builder(const BuildingPlan& plan, Random& random, TriangleMesh& mesh, SurfaceTable& surfaces)
       : plan_(plan), random_(random), mesh_(mesh), surfaces_(surfaces) {
     eaves_m_ = plan.storeys * kStorey_m + 0.3;
     const float shade = random.uniformf(0.75, 1.25);
@@ -40,20 +40,16 @@ class Builder {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), 0};
   }
 
-  std::uint16_t add_surface(const Surface& surface) {
-    surfaces_.push_back(surface);
-    surfaces_.back().seed = random_.next();
-    return static_cast<std::uint16_t>(surfaces_.size() - 1);
-  }
   std::uint16_t framed(Material material, const Vector3f& tint, const Vector3f& origin, const Vector3f& u,
                        const Vector3f& v, double width_m) {
-    return add_surface({material, tint, true, origin, u, v, static_cast<float>(width_m), 0});
+    return surfaces_.add({material, tint, true, origin, u, v, static_cast<float>(width_m), random_.next()});
   }
   std::uint16_t plain(Material material, const Vector3f& tint) {
     Surface surface;
     surface.material = material;
     surface.tint_rgb = tint;
-    return add_surface(surface);
+    surface.seed = random_.next();
+    return surfaces_.add(surface);
   }
   std::uint16_t wall_surface(const Vector3f& left, const Vector3f& right) {
     const Vector3f along = right - left;
@@ -138,7 +134,7 @@ class Builder {
   const BuildingPlan& plan_;
   Random& random_;
   TriangleMesh& mesh_;
-  std::vector<Surface>& surfaces_;
+  SurfaceTable& surfaces_;
   double eaves_m_ = 0;
   Vector3f wall_tint_;
   Material wall_ = Material::kPlaster;
@@ -146,8 +142,7 @@ class Builder {
 
 }  // namespace
 
-void add_building(const BuildingPlan& plan, Random& random, TriangleMesh& mesh,
-                  std::vector<Surface>& surfaces) {
+void add_building(const BuildingPlan& plan, Random& random, TriangleMesh& mesh, SurfaceTable& surfaces) {
   Builder(plan, random, mesh, surfaces).build();
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
-#include "sim/objects/site_plan.hpp"
+#include "sim/objects/ground_figures.hpp"
+#include "sim/objects/surface_table.hpp"
 #include "sim/objects/triangle_mesh.hpp"
 #include "sim/random.hpp"
 
@@ -20,7 +19,6 @@ struct BuildingPlan {
 constexpr double kStorey_m = 2.9;
 
 /// Adds walls, roof and what stands on the roof to `mesh`, and their surfaces to `surfaces`.
-void add_building(const BuildingPlan& plan, Random& random, TriangleMesh& mesh,
-                  std::vector<Surface>& surfaces);
+void add_building(const BuildingPlan& plan, Random& random, TriangleMesh& mesh, SurfaceTable& surfaces);
 
 }  // namespace alight::sim

@@ -24,15 +24,9 @@ Eigen::Vector3d sun_of(const WorldConfig& config) {
 
 }  // namespace
 
-World::World(const WorldConfig& config) : size_m_(config.size_m), sun_direction_(sun_of(config)) {
+World::World(const WorldConfig& config)
+    : parts_(build_world(config)), size_m_(config.size_m), sun_direction_(sun_of(config)) {
   if (config.hard.has(Hardship::kDusk)) daylight_ = 0.2F;
-  WorldBuilder builder(config);
-  builder.build();
-  meshes_ = std::move(builder.meshes);
-  placements_ = std::move(builder.placements);
-  surfaces_ = std::move(builder.surfaces);
-  movers_ = std::move(builder.movers);
-  terrain_ = std::move(builder.terrain);
 }
 
 World World::from_meshes(std::vector<TriangleMesh> meshes, std::vector<Surface> surfaces, double size_m,
@@ -40,22 +34,22 @@ World World::from_meshes(std::vector<TriangleMesh> meshes, std::vector<Surface> 
   World world;
   world.size_m_ = size_m;
   world.sun_direction_ = sun_direction.normalized();
-  world.meshes_ = std::move(meshes);
-  world.surfaces_ = std::move(surfaces);
-  for (std::size_t i = 0; i < world.meshes_.size(); ++i) {
-    world.placements_.emplace_back();
-    world.placements_.back().mesh = i;
+  world.parts_.meshes = std::move(meshes);
+  world.parts_.surfaces = std::move(surfaces);
+  for (std::size_t i = 0; i < world.parts_.meshes.size(); ++i) {
+    world.parts_.placements.emplace_back();
+    world.parts_.placements.back().mesh = i;
   }
   return world;
 }
 
 std::size_t World::add(TriangleMesh mesh) {
-  meshes_.push_back(std::move(mesh));
-  return meshes_.size() - 1;
+  parts_.meshes.push_back(std::move(mesh));
+  return parts_.meshes.size() - 1;
 }
 
 double World::ground_height_m(double x_m, double y_m) const {
-  return terrain_ ? terrain_->height_m(x_m, y_m) : 0.0;
+  return parts_.terrain ? parts_.terrain->height_m(x_m, y_m) : 0.0;
 }
 
 }  // namespace alight::sim

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include "sim/objects/mover.hpp"
-#include "sim/objects/terrain_mesh.hpp"
-#include "sim/objects/triangle_mesh.hpp"
 #include "sim/spec/world_config.hpp"
+#include "sim/world/world_parts.hpp"
 
 namespace alight::sim {
 
@@ -26,16 +23,16 @@ class World {
   static World from_meshes(std::vector<TriangleMesh> meshes, std::vector<Surface> surfaces, double size_m,
                            const Eigen::Vector3d& sun_direction = {0.36, 0.48, 0.8});
 
-  const std::vector<TriangleMesh>& meshes() const { return meshes_; }
-  const std::vector<Placement>& placements() const { return placements_; }
-  const std::vector<Surface>& surfaces() const { return surfaces_; }
+  const std::vector<TriangleMesh>& meshes() const { return parts_.meshes; }
+  const std::vector<Placement>& placements() const { return parts_.placements; }
+  const std::vector<Surface>& surfaces() const { return parts_.surfaces; }
   /// What moves, beside the placements, which stand still.
-  const std::vector<Mover>& movers() const { return movers_; }
+  const std::vector<Mover>& movers() const { return parts_.movers; }
   /// Adds a mesh that stands nowhere yet. @returns its index
   std::size_t add(TriangleMesh mesh);
-  void add(Mover mover) { movers_.push_back(std::move(mover)); }
+  void add(Mover mover) { parts_.movers.push_back(std::move(mover)); }
   /// Null in a world of given triangles.
-  const Terrain* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
+  const Terrain* terrain() const { return parts_.terrain ? &*parts_.terrain : nullptr; }
 
   /// Height of the bare ground (without roads' kerbs, plants, buildings), metres.
   double ground_height_m(double x_m, double y_m) const;
@@ -49,11 +46,7 @@ class World {
  private:
   World() = default;
 
-  std::vector<TriangleMesh> meshes_;
-  std::vector<Placement> placements_;
-  std::vector<Surface> surfaces_;
-  std::vector<Mover> movers_;
-  std::optional<Terrain> terrain_;
+  WorldParts parts_;
   double size_m_ = 0;
   Eigen::Vector3d sun_direction_ = Eigen::Vector3d::UnitZ();
   float daylight_ = 1;

@@ -6,35 +6,10 @@
 
 #include <Eigen/Core>
 
+#include "sim/objects/ground_figures.hpp"
 #include "sim/random.hpp"
 
 namespace alight::sim {
-
-/// A rectangle on the ground, metres.
-struct GroundRect {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  double half_u_m = 0;
-  double half_v_m = 0;
-  Eigen::Vector2d u_axis = Eigen::Vector2d::UnitX();
-
-  Eigen::Vector2d v_axis() const { return {-u_axis.y(), u_axis.x()}; }
-  double yaw_rad() const;  ///< of the u axis, counter-clockwise from east
-  Eigen::Vector2d at(double u_m, double v_m) const { return centre + u_axis * u_m + v_axis() * v_m; }
-  /// 0 inside.
-  double distance_m(const Eigen::Vector2d& p) const;
-};
-
-/// Unit vector at an angle counter-clockwise from east.
-Eigen::Vector2d heading(double yaw_rad);
-
-/// A straight piece of road from a to b.
-struct GroundSegment {
-  Eigen::Vector2d a = Eigen::Vector2d::Zero();
-  Eigen::Vector2d b = Eigen::Vector2d::Zero();
-
-  Eigen::Vector2d direction() const { return (b - a).normalized(); }
-  Eigen::Vector2d nearest(const Eigen::Vector2d& p) const;
-};
 
 /// Which ground is taken, on a half-metre raster over a square around the origin; outside is taken.
 class SitePlan {

@@ -1,4 +1,4 @@
-#include "sim/objects/site_plan.hpp"
+#include "sim/site/site_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,21 +8,6 @@ namespace {
 constexpr double kRaster_m = 0.5;
 constexpr double kHalfDiagonal_m = 0.36;  // a cell is taken as soon as a shape touches it
 }  // namespace
-
-Eigen::Vector2d heading(double yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
-
-double GroundRect::yaw_rad() const { return std::atan2(u_axis.y(), u_axis.x()); }
-
-double GroundRect::distance_m(const Eigen::Vector2d& p) const {
-  const double u = std::max(std::abs((p - centre).dot(u_axis)) - half_u_m, 0.0);
-  const double v = std::max(std::abs((p - centre).dot(v_axis())) - half_v_m, 0.0);
-  return std::hypot(u, v);
-}
-
-Eigen::Vector2d GroundSegment::nearest(const Eigen::Vector2d& p) const {
-  const Eigen::Vector2d along = b - a;
-  return a + along * std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-}
 
 SitePlan::SitePlan(double size_m)
     : half_m_(0.5 * size_m),
