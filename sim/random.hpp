@@ -23,7 +23,8 @@ constexpr std::uint32_t mix_bits(std::uint32_t a, std::uint32_t b) {
   return mix_bits(a * 0x9E3779B1U + mix_bits(b));
 }
 
-/// PCG32 (O'Neill). Ours because the standard library's distributions give other numbers with every library.
+/// PCG32 (O'Neill). Ours because the standard library's distributions give other numbers with every library. Draw one
+/// number a statement, or within braces: C++ leaves the order of arguments and operands to the compiler.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream) : increment_((stream << 1U) | 1U) {

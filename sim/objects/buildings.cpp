@@ -18,7 +18,7 @@ class Builder {
       : plan_(plan), random_(random), mesh_(mesh), surfaces_(surfaces) {
     eaves_m_ = plan.storeys * kStorey_m + 0.3;
     const float shade = random.uniformf(0.75, 1.25);
-    wall_tint_ = Vector3f(shade, shade * random.uniformf(0.92, 1.02), shade * random.uniformf(0.8, 1.05));
+    wall_tint_ = Vector3f{shade, shade * random.uniformf(0.92, 1.02), shade * random.uniformf(0.8, 1.05)};
     wall_ = plan.barn ? Material::kWood : (random.chance(0.3) ? Material::kBrick : Material::kPlaster);
   }
 
@@ -119,7 +119,7 @@ class Builder {
     const std::uint16_t metal = plain(Material::kMetal, Vector3f::Constant(1.2F));
     const int machines = 1 + random_.below(5);
     for (int i = 0; i < machines; ++i) {
-      const Vector3f half(random_.uniformf(0.4, 1.3), random_.uniformf(0.4, 1.0), random_.uniformf(0.3, 0.8));
+      const Vector3f half{random_.uniformf(0.4, 1.3), random_.uniformf(0.4, 1.0), random_.uniformf(0.3, 0.8)};
       const double machine_u = random_.uniform(-0.7, 0.7) * u;
       const double machine_v = random_.uniform(-0.7, 0.7) * v;
       add_box(mesh_, box_frame(machine_u, machine_v, eaves_m_ + static_cast<double>(half.z())), half, metal,

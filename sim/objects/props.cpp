@@ -29,7 +29,7 @@ void add_wire(const Vector3f& from, const Vector3f& to, std::uint16_t surface, T
 TriangleMesh boulder(std::uint16_t surface, Random& random) {
   TriangleMesh mesh = icosphere(3, surface);
   displace(mesh, 0.17F, random);
-  const Vector3f squash(random.uniformf(0.8, 1.2), random.uniformf(0.7, 1.0), random.uniformf(0.5, 0.85));
+  const Vector3f squash{random.uniformf(0.8, 1.2), random.uniformf(0.7, 1.0), random.uniformf(0.5, 0.85)};
   TriangleMesh result;
   result.append(mesh, Eigen::Affine3f(Eigen::Scaling(squash)));
   return result;

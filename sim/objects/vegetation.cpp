@@ -58,7 +58,8 @@ TriangleMesh broadleaf_tree(const PlantSurfaces& surfaces, Random& random) {
   const float width = random.uniformf(0.26, 0.36);
   const float height = 0.5F * (1 - 0.8F * trunk);
   for (int i = 0; i < kBlobs; ++i) {
-    const Vector3f d = random_direction(random) * random.uniformf(0.45, 0.8);
+    const Vector3f outward = random_direction(random);
+    const Vector3f d = outward * random.uniformf(0.45, 0.8);
     const Vector3f centre(fork.x() + d.x() * width, fork.y() + d.y() * width,
                           1 - height + d.z() * 0.85F * height);
     add_column(mesh, fork, centre, 0.014F, 0.005F, 4, surfaces.bark);
@@ -92,8 +93,9 @@ TriangleMesh conifer(const PlantSurfaces& surfaces, Random& random) {
       mesh.add_triangle(middle, middle - half + hang, tip, surfaces.leaves);
       mesh.add_triangle(middle, tip, middle + half + hang, surfaces.leaves);
       for (int k = 0; k < 4; ++k) {
-        const Vector3f at =
-            root + (tip - root) * random.uniformf(0.35, 1.0) + side * random.uniformf(-0.15, 0.15) * length;
+        const float along = random.uniformf(0.35, 1.0);
+        const float aside = random.uniformf(-0.15, 0.15);
+        const Vector3f at = root + (tip - root) * along + side * aside * length;
         const Vector3f facing = (Vector3f::UnitZ() + 0.7F * random_direction(random)).normalized();
         add_leaves(mesh, at, facing, (facing + out * 0.5F).normalized(), 0.14F * length + 0.004F,
                    surfaces.leaves, random);
@@ -108,8 +110,8 @@ TriangleMesh bush(const PlantSurfaces& surfaces, Random& random) {
   const int blobs = 4 + random.below(4);
   for (int i = 0; i < blobs; ++i) {
     const float radius = random.uniformf(0.16, 0.28);
-    const Vector3f centre(random.uniformf(-0.3, 0.3), random.uniformf(-0.3, 0.3),
-                          radius * random.uniformf(0.6, 1.3));
+    const Vector3f centre{random.uniformf(-0.3, 0.3), random.uniformf(-0.3, 0.3),
+                          radius * random.uniformf(0.6, 1.3)};
     add_blob(mesh, {centre, radius}, 60, 0.05F, surfaces, random);
   }
   return mesh;
@@ -122,8 +124,8 @@ TriangleMesh tuft(std::uint16_t surface, Random& random) {
     const Vector3f out = Eigen::Vector3d(std::cos(angle), std::sin(angle), 0).cast<float>();
     const Vector3f side(-out.y() * 0.03F, out.x() * 0.03F, 0);
     const Vector3f root = out * random.uniformf(0, 0.3);
-    const Vector3f tip =
-        root + out * random.uniformf(0.05, 0.3) + Vector3f(0, 0, random.uniformf(0.25, 0.55));
+    const float bend = random.uniformf(0.05, 0.3);
+    const Vector3f tip = root + out * bend + Vector3f(0, 0, random.uniformf(0.25, 0.55));
     mesh.add_triangle(root - side, root + side, tip, surface);
     for (std::size_t k = mesh.normals.size() - 3; k < mesh.normals.size(); ++k) {
       mesh.normals[k] = (mesh.normals[k] * 0.4F + Vector3f::UnitZ()).normalized();

@@ -73,7 +73,7 @@ std::vector<Mover> walk_people(const WorldSpec& spec, SurfaceTable& surfaces, Ob
     const double length_m = random.uniform(5, 25);
     const Eigen::Vector2d along = heading(random.uniform(0, kTwoPi));
     const double speed_mps = random.uniform(0.7, 1.6);
-    const Eigen::Vector3f tint(random.uniformf(.1, 1), random.uniformf(.1, 1), random.uniformf(.1, 1));
+    const Eigen::Vector3f tint{random.uniformf(.1, 1), random.uniformf(.1, 1), random.uniformf(.1, 1)};
     if (!from) continue;
     double free_m = 0;  // nobody walks through a wall
     while (free_m < length_m && placer.plan().is_free(*from + along * (free_m + 0.5), kBody_m)) free_m += 0.5;

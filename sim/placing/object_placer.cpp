@@ -25,13 +25,13 @@ void ObjectPlacer::put(std::size_t mesh, const Eigen::Vector2d& at, double sink_
 void ObjectPlacer::scatter(Random& random, const std::vector<std::size_t>& kinds, const Scatter& how) {
   constexpr int kAttempts = 12;
   for (int i = 0; i < how.count; ++i) {
-    const double scale =
-        how.min_scale + (how.max_scale - how.min_scale) * random.uniform() * random.uniform();
+    const double share = random.uniform();
+    const double scale = how.min_scale + (how.max_scale - how.min_scale) * share * random.uniform();
     const auto at = plan_.find_free(random, how.clear_radius_m * scale, spec_.half_m(), kAttempts);
     const std::size_t kind = random.pick(kinds);
     const double yaw_rad = random.uniform(0, kTwoPi);
     const float shade = random.uniformf(0.75, 1.3);
-    const Eigen::Vector3f tint(shade * random.uniformf(0.9, 1.15), shade, shade * random.uniformf(0.85, 1.1));
+    const Eigen::Vector3f tint{shade * random.uniformf(0.9, 1.15), shade, shade * random.uniformf(0.85, 1.1)};
     if (!at) continue;
     put(kind, *at, how.sink_m * scale, yaw_rad, scale, tint);
     if (how.takes_ground) plan_.occupy_disc(*at, how.clear_radius_m * scale);

@@ -36,10 +36,12 @@ void lay_roads(const WorldSpec& spec, SurfaceTable& surfaces, SiteLayout& layout
     case RoadNet::kTrack:
       add(off_centre, layout.yaw_rad);
       break;
-    case RoadNet::kCross:
+    case RoadNet::kCross: {
       add(off_centre, layout.yaw_rad);
-      add(along * random.uniform(-offset_m, offset_m), layout.yaw_rad + random.uniform(1.1, 1.9));
+      const Eigen::Vector2d through = along * random.uniform(-offset_m, offset_m);
+      add(through, layout.yaw_rad + random.uniform(1.1, 1.9));
       break;
+    }
     case RoadNet::kGrid: {
       const int streets = static_cast<int>(std::ceil(0.75 * spec.size_m() / kBlock_m));
       const double shift_m = random.uniform(0, kBlock_m);
