@@ -185,11 +185,33 @@ config_detail::ConfigNode Binder::take(const std::string& key) {
   return node_.is_map() ? node_[key] : ConfigNode();
 }
 
+config_detail::ConfigNode Binder::key_node(const std::string& key) const {
+  if (!node_.is_map()) return {};
+  for (const auto& pair : node_.yaml()) {
+    if (pair.first.IsScalar() && pair.first.Scalar() == key) return pair.first;
+  }
+  return {};
+}
+
 bool Binder::is_section(const std::string& key) const { return node_.is_map() && node_[key].is_map(); }
 
-bool Binder::has_override_below(const std::string& path) const {
-  const auto found = shared_->overrides.lower_bound(path + ".");
-  return found != shared_->overrides.end() && found->first.compare(0, path.size() + 1, path + ".") == 0;
+std::vector<std::string> Binder::overrides_below(const std::string& path) const {
+  const std::string begin = path + ".";
+  std::vector<std::string> below;
+  for (auto it = shared_->overrides.lower_bound(begin);
+       it != shared_->overrides.end() && it->first.compare(0, begin.size(), begin) == 0; ++it) {
+    below.push_back(it->first);
+  }
+  return below;
+}
+
+void Binder::refuse_section(const std::string& choice, const std::string& name) {
+  const std::string message = "belongs to " + choice + ": " + name + ", and the " + choice + " is " +
+                              chosen_.at(choice) + "; remove it or choose that " + choice;
+  const std::vector<std::string> set = overrides_below(dotted(name));
+  shared_->overrides_used.insert(set.begin(), set.end());
+  if (take(name).is_defined()) return error(key_node(name), name, message);
+  if (!set.empty()) shared_->errors.push_back("--set " + set.front() + ": " + message);
 }
 
 void Binder::ignore(const std::string& key) {

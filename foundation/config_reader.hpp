@@ -104,6 +104,12 @@ class Binder {
   template <class S>
   void section(const std::string& key, std::optional<S>& value, const std::string& help);
 
+  /// A nested struct that belongs to one name of a choice and has that name as its key. The choice has to be bound
+  /// before it. While another name is chosen the section would have no effect: it is a mistake to give it, in the file
+  /// or by --set, and it is not printed.
+  template <class S>
+  void section_of(const std::string& choice, const std::string& name, S& value, const std::string& help);
+
   /// A list of nested structs.
   template <class S>
   void list(const std::string& key, std::vector<S>& values, const std::string& help);
@@ -147,6 +153,8 @@ class Binder {
 
   /// The key's value from --set or the file; null where absent. Notes that the key is known.
   ConfigNode take(const std::string& key);
+  /// The key itself, which knows its line; absent where the file does not give it.
+  ConfigNode key_node(const std::string& key) const;
   /// Unknown and duplicate keys of this map.
   void report_leftovers();
   std::string dotted(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
@@ -154,7 +162,10 @@ class Binder {
   void error(const ConfigNode& node, const std::string& key, const std::string& message);
   void print_line(const std::string& key, const std::string& value, const std::string& help);
   void print_comment(const std::string& text);
-  bool has_override_below(const std::string& path) const;
+  /// Paths of --set below a section.
+  std::vector<std::string> overrides_below(const std::string& path) const;
+  /// The mistake of section_of, if the section is given.
+  void refuse_section(const std::string& choice, const std::string& name);
 
   template <class T>
   bool load(const std::string& key, T& value, Bounds bounds);
@@ -163,7 +174,8 @@ class Binder {
   ConfigNode node_;
   std::string path_;
   std::set<std::string> known_;
-  std::set<std::string> wrong_;  // keys with an error already: one message a key
+  std::set<std::string> wrong_;                // keys with an error already: one message a key
+  std::map<std::string, std::string> chosen_;  // key of a choice -> name
   std::string* printed_ = nullptr;
   int indent_ = 0;
 };
@@ -253,12 +265,14 @@ void Binder::choice(const std::string& key, Enum& value,
     all += (all.empty() ? "" : " | ") + name;
     if (number == value) current = name;
   }
+  chosen_[key] = current;
   if (printed_ != nullptr) return print_line(key, current, help + " (" + all + ")");
   const ConfigNode node = take(key);
   if (!node.is_defined()) return;
   for (const auto& [name, number] : names) {
     if (node.is_scalar() && node.scalar() == name) {
       value = number;
+      chosen_[key] = name;
       return;
     }
   }
@@ -287,9 +301,17 @@ void Binder::section(const std::string& key, std::optional<S>& value, const std:
   if (printed_ != nullptr) return value ? section(key, *value, help) : print_line(key, "none", help);
   const ConfigNode node = take(key);
   if (node.is_defined() && node.is_none()) return value.reset();
-  if (!node.is_defined() && !has_override_below(dotted(key))) return;
+  if (!node.is_defined() && overrides_below(dotted(key)).empty()) return;
   if (!value) value.emplace();
   section(key, *value, help);
+}
+
+template <class S>
+void Binder::section_of(const std::string& choice, const std::string& name, S& value,
+                        const std::string& help) {
+  // A wrong name is a mistake of its own: which section belongs to it nobody knows.
+  if (chosen_.at(choice) == name || wrong_.count(choice) != 0) return section(name, value, help);
+  if (loading()) refuse_section(choice, name);
 }
 
 template <class S>

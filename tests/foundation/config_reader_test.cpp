@@ -69,6 +69,22 @@ void bind(Binder& b, Either& c) {
   }
 }
 
+/// Two ways to do one thing, each with keys of its own.
+struct Drive {
+  Mode mode = Mode::kSlow;
+  Inner fast;
+  Inner slow;
+};
+void bind(Binder& b, Drive& c) {
+  b.choice("mode", c.mode, {{"fast", Mode::kFast}, {"slow", Mode::kSlow}}, "how");
+  b.section_of("mode", "fast", c.fast, "keys of fast");
+  b.section_of("mode", "slow", c.slow, "keys of slow");
+}
+struct Vehicle {
+  Drive drive;
+};
+void bind(Binder& b, Vehicle& c) { b.section("drive", c.drive, "what moves it"); }
+
 template <class T>
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
@@ -176,6 +192,42 @@ TEST(ConfigReader, MissingFileNamesItself) {
 TEST(ConfigReader, OneMessagePerKey) {
   const std::string message = error_of<Outer>("count: x");
   EXPECT_THAT(message, Not(HasSubstr("\n")));
+}
+
+TEST(ConfigReader, ASectionOfTheChosenNameIsRead) {
+  EXPECT_EQ(parse_config<Drive>("slow: {max_slope_deg: 5}", "f").slow.max_slope_deg, 5);
+  EXPECT_EQ(parse_config<Drive>("fast: {max_slope_deg: 5}\nmode: fast", "f").fast.max_slope_deg, 5);
+  EXPECT_EQ(parse_config<Drive>("", "f", {"fast.max_slope_deg=6", "mode=fast"}).fast.max_slope_deg, 6);
+  EXPECT_EQ(error_of<Drive>("slow: {max_slop_deg: 5}"),
+            "file.yaml:1: slow.max_slop_deg: no such key; did you mean \"max_slope_deg\"?");
+}
+
+TEST(ConfigReader, ASectionOfAnotherNameIsOneMistakeWithItsCure) {
+  EXPECT_EQ(
+      error_of<Vehicle>("drive:\n  fast:\n    max_slope_deg: 500\n    nonsense: 1\n"),
+      "file.yaml:2: drive.fast: belongs to mode: fast, and the mode is slow; remove it or choose that mode");
+  EXPECT_EQ(error_of<Vehicle>("drive: {mode: fast}", {"drive.slow.sizes=[1]", "drive.slow.max_slope_deg=3"}),
+            "--set drive.slow.max_slope_deg: belongs to mode: slow, and the mode is fast; remove it or "
+            "choose that mode");
+  EXPECT_THAT(error_of<Vehicle>("drive: {slow: {max_slope_deg: 5}}", {"drive.mode=fast"}),
+              HasSubstr("drive.slow: belongs to mode: slow, and the mode is fast"));
+  EXPECT_THAT(error_of<Drive>("fast:"), HasSubstr("belongs to mode: fast"));
+  EXPECT_THAT(error_of<Drive>("", {"fast=none"}), HasSubstr("--set fast: belongs to mode: fast"));
+}
+
+TEST(ConfigReader, AWrongNameOfAChoiceIsNoMistakeOfTheSections) {
+  EXPECT_EQ(error_of<Drive>("mode: fats\nfast: {max_slope_deg: 5}"),
+            "file.yaml:1: mode: expected one of fast | slow, got \"fats\"");
+}
+
+TEST(ConfigReader, OnlyTheSectionOfTheChosenNameIsPrinted) {
+  Drive c;
+  c.mode = Mode::kFast;
+  c.fast.max_slope_deg = 7;
+  const std::string printed = print_config(c);
+  EXPECT_THAT(printed, Not(HasSubstr("slow:")));
+  EXPECT_EQ(parse_config<Drive>(printed, "printed").fast.max_slope_deg, 7);
+  EXPECT_EQ(print_config(parse_config<Drive>(printed, "printed")), printed);
 }
 
 TEST(ConfigReader, AKeyMayTakeAValueOrASection) {
