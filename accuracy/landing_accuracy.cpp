@@ -11,7 +11,7 @@
 #include "foundation/command_line.hpp"
 #include "foundation/progress_bar.hpp"
 #include "geometry/reprojection.hpp"
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 #include "sim/world/world.hpp"
 
 // How well safe ground is told from unsafe ground on perfect depth, against the simulator's truth.

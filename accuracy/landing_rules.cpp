@@ -7,7 +7,7 @@
 
 #include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
-#include "infer/landing/planes/elevation_raster.hpp"
+#include "infer/landing/ground/elevation_raster.hpp"
 
 namespace alight::bench {
 namespace {

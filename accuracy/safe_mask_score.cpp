@@ -6,6 +6,7 @@
 
 #include "foundation/parallel_rows.hpp"
 #include "geometry/frames.hpp"
+#include "infer/landing/ground/free_radius.hpp"
 #include "sim/random.hpp"
 
 namespace alight::bench {
@@ -91,10 +92,7 @@ TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConf
   view.hidden = cv::Mat::zeros(k.size(), CV_8UC1);
   const cv::Mat hidden = hidden_cells(truth, config, material, k, T_world_level);
   view.area_m2 = cv::Mat::zeros(k.size(), CV_32FC1);
-  cv::Mat framed;
-  cv::copyMakeBorder(material != 255, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::Mat border_px;
-  cv::distanceTransform(framed, border_px, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const cv::Mat inside_px = free_radius(material != 255);
   const double min_m = -0.5 * config.cell_m * truth.safe().cols;
   for (int v = 0; v < k.height_px; ++v) {
     for (int u = 0; u < k.width_px; ++u) {
@@ -116,7 +114,7 @@ TruthView truth_view(const sim::SurfaceTruth& truth, const sim::SurfaceTruthConf
       const bool residual_far = !(residual_m < config.max_residual_m + kResidualBand_m);
       if ((slope_near || residual_near) && !slope_far && !residual_far)
         view.at_limit.at<std::uint8_t>(v, u) = 255;
-      const double inside_m = (static_cast<double>(border_px.at<float>(v + 1, u + 1)) - 0.5) * z_m / k.fx_px;
+      const double inside_m = static_cast<double>(inside_px.at<float>(v, u)) * z_m / k.fx_px;
       if (view.safe.at<std::uint8_t>(v, u) != 0 && inside_m >= clearance_m &&
           truth.clearance_m(p.x(), p.y()) >= clearance_m) {
         view.roomy.at<std::uint8_t>(v, u) = 255;

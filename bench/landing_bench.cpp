@@ -5,7 +5,7 @@
 #include "accuracy/scene.hpp"
 #include "geometry/reprojection.hpp"
 #include "infer/landing/memory/fused_selection.hpp"
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 
 namespace alight {
 namespace {

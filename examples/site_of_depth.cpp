@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include <alight/geometry/depth_map.hpp>
-#include <alight/infer/landing/site_selection.hpp>
+#include <alight/infer/landing/site_selector.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 int main(int argc, char** argv) {

@@ -11,7 +11,7 @@
 #include "infer/health/health_monitor.hpp"
 #include "infer/landing/memory/fused_selection.hpp"
 #include "infer/landing/memory/site_tracker.hpp"
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 
 namespace alight {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 
 namespace alight {
 

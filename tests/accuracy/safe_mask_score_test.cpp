@@ -6,7 +6,7 @@
 
 #include "accuracy/scene.hpp"
 #include "geometry/reprojection.hpp"
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 #include "sim/world/world.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/frames.hpp"
-#include "infer/landing/planes/overhang.hpp"
+#include "infer/landing/ground/overhang.hpp"
 
 namespace alight {
 namespace {

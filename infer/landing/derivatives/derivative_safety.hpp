@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "geometry/camera.hpp"
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 
 namespace alight {
 

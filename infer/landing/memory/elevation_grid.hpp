@@ -9,9 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "foundation/binder_fwd.hpp"
+#include "infer/landing/ground/ground_map.hpp"
 #include "infer/landing/memory/lidar_support.hpp"
-#include "infer/landing/planes/elevation_raster.hpp"
-#include "infer/landing/planes/plane_fit.hpp"
 
 namespace alight {
 

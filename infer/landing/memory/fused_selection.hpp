@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "infer/landing/memory/elevation_grid.hpp"
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 
 namespace alight {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 
 namespace alight {
 

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "foundation/config_reader.hpp"
+#include "infer/landing/ground/free_radius.hpp"
 
 namespace alight {
 namespace {
@@ -73,16 +74,6 @@ void remove_platforms(const ElevationRaster& raster, const PlaneFitConfig& plane
   }
 }
 
-/// From every safe cell's centre to the nearest unsafe cell's edge; beyond the raster all is unsafe.
-cv::Mat free_radius_m(const cv::Mat& safe, double cell_m) {
-  cv::Mat framed;
-  cv::copyMakeBorder(safe, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::Mat distance;
-  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  cv::Mat radius_m = (distance(cv::Rect({1, 1}, safe.size())) - 0.5) * cell_m;
-  return cv::max(radius_m, 0.0);
-}
-
 }  // namespace
 
 void bind(Binder& b, GroundSafetyConfig& c) {
@@ -110,7 +101,7 @@ GroundMap judge_ground(ElevationRaster raster, GroundShape shape, const cv::Mat&
     cv::dilate(hazard, hazard, disc_mask(guard), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   ground.safe = flat & ~hazard;
   if (!ground.raster.column_seen.empty()) ground.safe &= ground.raster.column_seen;
-  ground.radius_m = free_radius_m(ground.safe, ground.raster.cell_m);
+  ground.radius_m = free_radius(ground.safe, ground.raster.cell_m);
   return ground;
 }
 

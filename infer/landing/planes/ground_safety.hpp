@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "foundation/binder_fwd.hpp"
-#include "infer/landing/planes/elevation_raster.hpp"
+#include "infer/landing/ground/ground_map.hpp"
 #include "infer/landing/planes/plane_fit.hpp"
 
 namespace alight {
@@ -18,17 +18,6 @@ struct GroundSafetyConfig {
   double platform_border = 0.3;  ///< share of the border that has to fall away
 };
 void bind(Binder& b, GroundSafetyConfig& c);
-
-/// A raster that has been judged. All maps have the raster's size.
-struct GroundMap {
-  ElevationRaster raster;
-  GroundShape shape;
-  cv::Mat safe;  ///< CV_8UC1, 255 = safe
-  cv::Mat
-      radius_m;  ///< CV_32FC1, from a safe cell's centre to the nearest unsafe cell's edge; 0 where unsafe
-
-  bool empty() const { return raster.empty(); }
-};
 
 /// Judges every cell by its shape (fit_planes of the same raster): the plane is less steep than the limit, nothing on the disc is farther from it than
 /// plane_fit.max_residual_m, every cell of the disc is known, it is no raised platform, no cell that fails in

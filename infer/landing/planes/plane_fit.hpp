@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "foundation/binder_fwd.hpp"
-#include "infer/landing/planes/elevation_raster.hpp"
+#include "infer/landing/ground/ground_map.hpp"
 
 namespace alight {
 
@@ -19,16 +19,6 @@ struct PlaneFitConfig {
   double reach_m = 60;  ///< ground farther away horizontally is left out
 };
 void bind(Binder& b, PlaneFitConfig& c);
-
-/// Shape of the ground around every cell of a raster.
-struct GroundShape {
-  cv::Mat gradient;     ///< CV_32FC1, tangent of the plane's slope
-  cv::Mat residual_m;   ///< CV_32FC1, largest vertical distance of anything on the disc to the plane
-  cv::Mat deviation_m;  ///< CV_32FC1, the same of what is in the cell alone: an obstacle stands here
-  cv::Mat plane_m;      ///< CV_32FC1, height of the plane at the cell's middle
-  cv::Mat centre_m;     ///< CV_32FC1, mean height moved along the plane from the points' middle to the cell's
-  cv::Mat known;        ///< CV_8UC1, 255 where every cell of the disc is known; elsewhere the others are 0
-};
 
 /// Least-squares plane through the cells' heights on a disc around every cell. The points of a cell do not lie evenly
 /// around its middle, which on a slope is an error; so planes are fitted twice, the second time through the mean heights

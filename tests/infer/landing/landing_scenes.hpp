@@ -55,6 +55,30 @@ inline cv::Mat level_ground_seen(const PinholeIntrinsics& k, double height_m,
   return depth;
 }
 
+/// A camera that looks down from a place of the world.
+inline Eigen::Isometry3d camera_at(double x_m, double y_m, double z_m, double roll_deg = 0,
+                                   double pitch_deg = 0, double yaw_rad = 0) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = attitude(to_radians(roll_deg), to_radians(pitch_deg), yaw_rad);
+  T.translation() = Eigen::Vector3d(x_m, y_m, z_m);
+  return T;
+}
+
+/// Depth of the plane z = z0 + gx x + gy y of the world, seen by a camera of any pose.
+inline cv::Mat plane_seen(const PinholeIntrinsics& k, const Eigen::Isometry3d& T, double z0_m, double gx,
+                          double gy) {
+  cv::Mat depth = cv::Mat::zeros(k.size(), CV_32FC1);
+  const Eigen::Vector3d normal(-gx, -gy, 1);
+  for (int v = 0; v < depth.rows; ++v) {
+    for (int u = 0; u < depth.cols; ++u) {
+      const double slant = normal.dot(T.linear() * k.ray(u, v));
+      const double z_m = (z0_m - normal.dot(T.translation())) / slant;
+      if (z_m > 0) depth.at<float>(v, u) = static_cast<float>(z_m);
+    }
+  }
+  return depth;
+}
+
 /// Adds range noise to every known pixel.
 inline cv::Mat with_noise(const cv::Mat& depth_m, double sigma_m, std::uint32_t seed) {
   std::mt19937 random(seed);

@@ -1,5 +1,3 @@
-#include "infer/landing/site_selection.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "foundation/config_reader.hpp"
+#include "infer/landing/site_selector.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
 namespace alight {

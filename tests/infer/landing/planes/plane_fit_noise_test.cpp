@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "infer/landing/planes/elevation_raster.hpp"
+#include "infer/landing/ground/elevation_raster.hpp"
 #include "infer/landing/planes/plane_fit.hpp"
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
 namespace alight {

@@ -1,18 +1,16 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "geometry/camera.hpp"
-#include "infer/landing/derivatives/terrain.hpp"
-#include "infer/landing/landing_site.hpp"
+#include "infer/landing/derivatives/measure_terrain.hpp"
+#include "infer/landing/ground/site_ranking.hpp"
+#include "infer/landing/ground/site_selection.hpp"
 #include "infer/landing/planes/ground_safety.hpp"
 #include "infer/landing/planes/plane_fit.hpp"
-#include "infer/landing/site_ranking.hpp"
 
 namespace alight {
 
@@ -55,34 +53,6 @@ struct SiteSelectionConfig {
   SiteRankingConfig ranking;
 };
 void bind(Binder& b, SiteSelectionConfig& c);
-
-enum class SiteStatus {
-  kFound,
-  kNoDepth,     ///< no pixel has a depth
-  kNoFlatArea,  ///< depth, but no safe pixel
-  kTooSmall,    ///< the largest circle is smaller than min_radius_m
-};
-
-/// The outcome for one depth map, with the maps that it was drawn from. Frame: the level camera.
-struct SiteSelection {
-  SiteStatus status = SiteStatus::kNoDepth;
-  /// The largest circle, whatever its size; absent where there is no safe pixel. Only kFound makes it a site.
-  std::optional<LandingSite> largest;
-  /// Separate circles larger than min_radius_m, the best score first; with plane_fit up to ranking.max_sites of them,
-  /// with the derivatives the largest alone.
-  std::vector<LandingSite> sites;
-  Eigen::Matrix3d R_level_camera = Eigen::Matrix3d::Identity();
-  cv::Mat level_depth_m;  ///< CV_32FC1
-  Terrain terrain;
-  cv::Mat safe;      ///< CV_8UC1, 255 = safe
-  cv::Mat radius_m;  ///< CV_32FC1, radius of the free circle around every pixel, 0 where unsafe
-  GroundMap ground;  ///< plane_fit: the judged raster that the maps above show; else empty
-
-  bool found() const { return status == SiteStatus::kFound; }
-};
-
-/// "landing site of 3.1 m", "no depth", "no flat area", "largest circle 1.4 m".
-std::string describe(const SiteSelection& selection);
 
 /// Paper 3.3 steps 2 to 4, free of state. What is unknown and what lies beyond the image is unsafe.
 class SiteSelector {

@@ -1,4 +1,4 @@
-#include "infer/landing/site_ranking.hpp"
+#include "infer/landing/ground/site_ranking.hpp"
 
 #include <algorithm>
 #include <cmath>

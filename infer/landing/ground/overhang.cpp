@@ -1,4 +1,4 @@
-#include "infer/landing/planes/overhang.hpp"
+#include "infer/landing/ground/overhang.hpp"
 
 #include <algorithm>
 #include <cmath>

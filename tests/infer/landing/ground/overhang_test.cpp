@@ -1,11 +1,11 @@
-#include "infer/landing/planes/overhang.hpp"
+#include "infer/landing/ground/overhang.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
 namespace alight {

@@ -1,8 +1,7 @@
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -14,20 +13,11 @@
 #include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
 #include "infer/landing/derivatives/derivative_safety.hpp"
-#include "infer/landing/planes/overhang.hpp"
+#include "infer/landing/ground/free_radius.hpp"
+#include "infer/landing/ground/overhang.hpp"
 
 namespace alight {
 namespace {
-
-/// Distance of every safe pixel's centre to the edge of the nearest unsafe pixel; beyond the image all is unsafe.
-cv::Mat free_radius_px(const cv::Mat& safe) {
-  cv::Mat framed;
-  cv::copyMakeBorder(safe, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::Mat distance;
-  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  cv::Mat radius = distance(cv::Rect({1, 1}, safe.size())) - 0.5;
-  return cv::max(radius, 0.0);
-}
 
 /// Mean confidence over a site, as the camera itself sees it.
 double confidence_on(const LandingSite& site, const cv::Mat& confidence,
@@ -75,15 +65,6 @@ void bind(Binder& b, SiteSelectionConfig& c) {
   b.field("margin_m", c.margin_m, "taken off every radius: uncertainty of where the vehicle comes down",
           between(0, 100));
   b.section("ranking", c.ranking, "which of several sites is the best");
-}
-
-std::string describe(const SiteSelection& selection) {
-  if (selection.status == SiteStatus::kNoDepth) return "no depth";
-  if (!selection.largest) return "no flat area";
-  char text[64];
-  std::snprintf(text, sizeof text, selection.found() ? "landing site of %.1f m" : "largest circle %.1f m",
-                selection.largest->radius_m);
-  return text;
 }
 
 SiteSelector::SiteSelector(const SiteSelectionConfig& config, const PinholeIntrinsics& intrinsics)
@@ -234,7 +215,7 @@ LandingSite SiteSelector::site_on(const GroundMap& ground, const cv::Point& cell
 void SiteSelector::decide_by_derivatives(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const {
   out.terrain = measure_terrain(out.level_depth_m, intrinsics_, config_.terrain);
   out.safe = derivative_safe_mask(out.terrain, out.level_depth_m, intrinsics_, config_);
-  const cv::Mat radius_m = free_radius_px(out.safe).mul(out.level_depth_m) / focal_px() - config_.margin_m;
+  const cv::Mat radius_m = free_radius(out.safe).mul(out.level_depth_m) / focal_px() - config_.margin_m;
   out.radius_m = cv::max(radius_m, 0.0);
   if (cv::countNonZero(out.level_depth_m) == 0) return;
   out.status = SiteStatus::kNoFlatArea;

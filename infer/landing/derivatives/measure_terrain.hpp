@@ -4,6 +4,7 @@
 
 #include "foundation/binder_fwd.hpp"
 #include "geometry/camera.hpp"
+#include "infer/landing/ground/terrain.hpp"
 
 namespace alight {
 
@@ -18,16 +19,6 @@ struct TerrainConfig {
   int smoothing_px = 5;
 };
 void bind(Binder& b, TerrainConfig& c);
-
-/// Shape of the ground under every pixel of a level camera that looks down.
-struct Terrain {
-  cv::Mat slope_rad;  ///< CV_32FC1, angle between ground and horizontal
-  cv::Mat
-      roughness_rad;  ///< CV_32FC1, largest change of slope over the baseline, along rows and along columns;
-                      ///< empty where planes were fitted
-  cv::Mat known;      ///< CV_8UC1, 255 where all exist: every depth they need is known and inside the image
-  cv::Mat residual_m{};  ///< CV_32FC1, largest distance to the fitted plane; empty where none was
-};
 
 /// Slope and roughness (paper 3.3 step 3). Exact on planes of any tilt: distances on the ground come from the points
 /// themselves, and smoothing averages 1/z, which a plane makes linear in the image. Where the ground folds over

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/wide_loops.hpp"
-#include "infer/landing/site_selection.hpp"
+#include "infer/landing/site_selector.hpp"
 
 namespace alight {
 namespace {

@@ -1,4 +1,4 @@
-#include "infer/landing/planes/elevation_raster.hpp"
+#include "infer/landing/ground/elevation_raster.hpp"
 
 #include <algorithm>
 #include <array>

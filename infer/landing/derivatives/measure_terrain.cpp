@@ -1,4 +1,4 @@
-#include "infer/landing/derivatives/terrain.hpp"
+#include "infer/landing/derivatives/measure_terrain.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "geometry/camera.hpp"
-#include "infer/landing/planes/elevation_raster.hpp"
+#include "infer/landing/ground/elevation_raster.hpp"
 
 namespace alight {
 

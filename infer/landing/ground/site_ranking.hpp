@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "foundation/binder_fwd.hpp"
-#include "infer/landing/landing_site.hpp"
+#include "infer/landing/ground/landing_site.hpp"
 
 namespace alight {
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "infer/landing/ground/ground_map.hpp"
+#include "infer/landing/ground/landing_site.hpp"
+#include "infer/landing/ground/terrain.hpp"
+
+namespace alight {
+
+enum class SiteStatus {
+  kFound,
+  kNoDepth,     ///< no pixel has a depth
+  kNoFlatArea,  ///< depth, but no safe pixel
+  kTooSmall,    ///< the largest circle is smaller than min_radius_m
+};
+
+/// The outcome for one depth map, with the maps that it was drawn from. Frame: the level camera.
+struct SiteSelection {
+  SiteStatus status = SiteStatus::kNoDepth;
+  /// The largest circle, whatever its size; absent where there is no safe pixel. Only kFound makes it a site.
+  std::optional<LandingSite> largest;
+  /// Separate circles larger than min_radius_m, the best score first; with plane_fit up to ranking.max_sites of them,
+  /// with the derivatives the largest alone.
+  std::vector<LandingSite> sites;
+  Eigen::Matrix3d R_level_camera = Eigen::Matrix3d::Identity();
+  cv::Mat level_depth_m;  ///< CV_32FC1
+  Terrain terrain;
+  cv::Mat safe;      ///< CV_8UC1, 255 = safe
+  cv::Mat radius_m;  ///< CV_32FC1, radius of the free circle around every pixel, 0 where unsafe
+  GroundMap ground;  ///< plane_fit: the judged raster that the maps above show; else empty
+
+  bool found() const { return status == SiteStatus::kFound; }
+};
+
+/// "landing site of 3.1 m", "no depth", "no flat area", "largest circle 1.4 m".
+std::string describe(const SiteSelection& selection);
+
+}  // namespace alight
