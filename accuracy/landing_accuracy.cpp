@@ -135,7 +135,7 @@ int measure(const Options& options) {
   config.method = LandingMethod::kPlaneFit;
   const PinholeIntrinsics k = paper_rig().intrinsics;
   const SiteSelector planes(config, k);
-  config.column_m = options.column_m;
+  config.plane_fit.column_m = options.column_m;
   const SiteSelector columns(config, k);
   config.method = LandingMethod::kDerivatives;
   const SiteSelector derivatives(config, k);
@@ -181,7 +181,7 @@ int main(int argc, char** argv) {
   app.add_option("--max-tilt", options.max_tilt_deg, "Roll and pitch are drawn up to this, degrees")
       ->check(CLI::Range(0.0, 30.0))
       ->capture_default_str();
-  app.add_option("--column", options.column_m, "selection.column_m of the second rule")
+  app.add_option("--column", options.column_m, "plane_fit.column_m of the second rule")
       ->capture_default_str();
   return alight::run_tool(app, argc, argv, [&] { return alight::bench::measure(options); });
 }

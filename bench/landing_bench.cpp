@@ -4,7 +4,10 @@
 
 #include "accuracy/scene.hpp"
 #include "geometry/reprojection.hpp"
+#include "infer/landing/derivatives/measure_terrain.hpp"
 #include "infer/landing/memory/fused_selection.hpp"
+#include "infer/landing/planes/ground_safety.hpp"
+#include "infer/landing/planes/plane_fit.hpp"
 #include "infer/landing/site_selector.hpp"
 
 namespace alight {
@@ -43,8 +46,7 @@ BENCHMARK(rasterize_352)->Unit(benchmark::kMillisecond);
 void judge_ground_352(benchmark::State& state) {
   const ElevationRaster raster =
       rasterize(bench::ground(), bench::paper_rig().intrinsics, tilted_camera(), 0.2, 60);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(judge_ground(raster, fit_planes(raster, {}), {}, {}, {}, 0.17));
+  for (auto _ : state) benchmark::DoNotOptimize(judge_ground(raster, fit_planes(raster, {}), {}, {}, 0.17));
 }
 BENCHMARK(judge_ground_352)->Unit(benchmark::kMillisecond);
 

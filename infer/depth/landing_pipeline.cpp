@@ -16,8 +16,9 @@ void bind(Binder& b, LandingConfig& c) {
       "obstacles");
   b.check("site_source", c.fuse || c.site_source == SiteSource::kFrame,
           "fused and both need fuse: true; say site_source: frame");
-  b.check("site_source", c.site_source != SiteSource::kBoth || c.selection.method == LandingMethod::kPlaneFit,
-          "both needs selection.method: plane_fit; say site_source: frame");
+  b.check("site_source",
+          c.site_source == SiteSource::kFrame || c.selection.method == LandingMethod::kPlaneFit,
+          "fused and both need selection.method: plane_fit; say site_source: frame");
   b.section("grid", c.grid, "what is remembered of the ground");
   b.section("tracker", c.tracker, "when a site counts");
 }

@@ -18,14 +18,17 @@ namespace alight {
 /// Which decision the tracker follows. Both are made and logged unless the grid is off.
 enum class SiteSource {
   kFrame,  ///< what this frame's depth says (the paper)
+  // Of plane_fit alone: the memory is judged by planes.
   kFused,  ///< what all frames together know of the ground
-  kBoth,   ///< this frame's depth, less where an earlier one saw something rise or fall; plane_fit only
+  kBoth,   ///< this frame's depth, less where an earlier one saw something rise or fall
 };
 
 /// What makes a landing site. Files: configs/landing/*.yaml
 struct LandingConfig {
   SiteSelectionConfig selection;
-  bool fuse = true;  ///< keep the elevation grid; needed for site_source fused and both
+  /// Keep the elevation grid; needed for site_source fused and both. Beside the derivatives, planes with their defaults
+  /// judge it for the log.
+  bool fuse = true;
   SiteSource site_source = SiteSource::kBoth;
   ElevationGridConfig grid;
   SiteTrackerConfig tracker;

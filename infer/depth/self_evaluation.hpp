@@ -78,7 +78,7 @@ class StereoTest {
 /// The second test (METHOD, "Self-evaluation", beyond the paper): LiDAR points that were not fed. Needs no altitude.
 struct HoldoutTestConfig {
   /// Median of |error| / depth. 8 cm at 20 m: the lowest step that the site selection can tell from flat ground is 9 cm
-  /// (TerrainConfig), so depth that is off by more is no basis for it.
+  /// (DerivativesConfig), so depth that is off by more is no basis for it.
   double max_median_relative = 0.004;
   double max_rms_relative =
       0.015;  ///< root mean square of error / depth, which sees wrong edges (docs/results/self_evaluation.md)

@@ -13,8 +13,11 @@
 #include "geometry/frames.hpp"
 #include "geometry/reprojection.hpp"
 #include "infer/landing/derivatives/derivative_safety.hpp"
+#include "infer/landing/derivatives/measure_terrain.hpp"
 #include "infer/landing/ground/free_radius.hpp"
 #include "infer/landing/ground/overhang.hpp"
+#include "infer/landing/planes/ground_safety.hpp"
+#include "infer/landing/planes/plane_fit.hpp"
 
 namespace alight {
 namespace {
@@ -36,26 +39,9 @@ void bind(Binder& b, SiteSelectionConfig& c) {
   b.choice("method", c.method,
            {{"plane_fit", LandingMethod::kPlaneFit}, {"derivatives", LandingMethod::kDerivatives}},
            "plane_fit: planes on discs of ground, in metres; derivatives: of the depth image, the paper's");
+  b.section_of("method", "plane_fit", c.plane_fit, "how planes judge ground");
+  b.section_of("method", "derivatives", c.derivatives, "how derivatives judge ground");
   b.field("max_slope_deg", c.max_slope_deg, "steepest safe ground", between(0.1, 60));
-  b.section("plane_fit", c.plane_fit, "plane_fit: over which ground a plane is laid");
-  b.section("ground", c.ground, "plane_fit: what else makes ground unsafe");
-  b.field("column_m", c.column_m, "plane_fit: air over safe ground that has to be in view; 0: none",
-          between(0, 50));
-  b.section("terrain", c.terrain, "derivatives: how the shape of the ground is measured");
-  b.field("max_roughness_deg", c.max_roughness_deg, "derivatives: largest safe change of slope",
-          between(0.1, 60));
-  b.field("speck_max_area_m2", c.speck_max_area_m2,
-          "derivatives: a smaller unsafe patch may be noise; 0: none is", between(0, 10));
-  b.field("speck_max_excess", c.speck_max_excess, "if it nowhere exceeds this multiple of a limit",
-          between(1, 10));
-  b.field("erode_px", c.erode_px, "derivatives: side of the square that erodes the safe mask; 1: none",
-          between(1, 99));
-  b.field("dilate_px", c.dilate_px, "derivatives: side of the square that dilates it again; 1: none",
-          between(1, 99));
-  b.check("dilate_px", c.dilate_px <= c.erode_px,
-          "must not exceed erode_px: it would make unsafe ground safe");
-  b.field("overhang_clearance_m", c.overhang_clearance_m,
-          "derivatives: ground below obstacles that hang higher over it is unsafe; 0: off", between(0, 100));
   b.field("min_confidence", c.min_confidence, "depth with less confidence (0..1) is unknown", between(0, 1));
   b.field("min_radius_m", c.min_radius_m, "a site has to be larger than this", between(0.1, 100));
   b.field("vehicle_radius_m", c.vehicle_radius_m, "from the vehicle's middle to the tips of its propellers",
@@ -82,8 +68,8 @@ ElevationRaster SiteSelector::raster_of(const cv::Mat& depth_m,
                                  kPixelsPerCell * mean_m / std::min(intrinsics_.fx_px, intrinsics_.fy_px));
   ElevationRaster raster = rasterize(depth_m, intrinsics_, T_world_camera, cell_m, config_.plane_fit.reach_m,
                                      config_.plane_fit.noise_m);
-  if (config_.column_m > 0 && !raster.empty())
-    raster.column_seen = columns_in_view(raster, intrinsics_, T_world_camera, config_.column_m);
+  if (config_.plane_fit.column_m > 0 && !raster.empty())
+    raster.column_seen = columns_in_view(raster, intrinsics_, T_world_camera, config_.plane_fit.column_m);
   return raster;
 }
 
@@ -152,7 +138,7 @@ SiteSelection SiteSelector::judge(ElevationRaster raster, const cv::Mat& hazards
 void SiteSelector::decide_by_planes(const cv::Mat& hazards, const Eigen::Isometry3d& T_world_level,
                                     SiteSelection& out) const {
   out.ground = judge_ground(std::move(out.ground.raster), std::move(out.ground.shape), hazards,
-                            config_.plane_fit, config_.ground, to_radians(config_.max_slope_deg));
+                            config_.plane_fit, to_radians(config_.max_slope_deg));
   show_ground(T_world_level, out);
   if (out.ground.empty()) return;
   out.status = SiteStatus::kNoFlatArea;
@@ -213,8 +199,9 @@ LandingSite SiteSelector::site_on(const GroundMap& ground, const cv::Point& cell
 }
 
 void SiteSelector::decide_by_derivatives(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const {
-  out.terrain = measure_terrain(out.level_depth_m, intrinsics_, config_.terrain);
-  out.safe = derivative_safe_mask(out.terrain, out.level_depth_m, intrinsics_, config_);
+  out.terrain = measure_terrain(out.level_depth_m, intrinsics_, config_.derivatives);
+  out.safe = derivative_safe_mask(out.terrain, out.level_depth_m, intrinsics_, config_.derivatives,
+                                  to_radians(config_.max_slope_deg));
   const cv::Mat radius_m = free_radius(out.safe).mul(out.level_depth_m) / focal_px() - config_.margin_m;
   out.radius_m = cv::max(radius_m, 0.0);
   if (cv::countNonZero(out.level_depth_m) == 0) return;

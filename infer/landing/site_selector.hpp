@@ -6,11 +6,10 @@
 #include <opencv2/core.hpp>
 
 #include "geometry/camera.hpp"
-#include "infer/landing/derivatives/measure_terrain.hpp"
+#include "infer/landing/derivatives/derivatives_config.hpp"
 #include "infer/landing/ground/site_ranking.hpp"
 #include "infer/landing/ground/site_selection.hpp"
-#include "infer/landing/planes/ground_safety.hpp"
-#include "infer/landing/planes/plane_fit.hpp"
+#include "infer/landing/planes/plane_fit_config.hpp"
 
 namespace alight {
 
@@ -24,28 +23,9 @@ enum class LandingMethod {
 struct SiteSelectionConfig {
   LandingMethod method = LandingMethod::kPlaneFit;
   double max_slope_deg = 10;
-  // plane_fit
-  PlaneFitConfig plane_fit;
-  GroundSafetyConfig ground;
-  /// Air over safe ground that the image has to show: what hangs there unseen ends a descent. 0: none has to. With h
-  /// over the ground only the middle of the image, (h - column_m) / h of its side, can be safe then.
-  double column_m = 0;
-  // derivatives
-  TerrainConfig terrain;
-  double max_roughness_deg = 10;
-  /// Point and pose noise make specks that just exceed a limit, and one speck is enough to cut a circle in half. An
-  /// unsafe patch is taken for noise when it is smaller than this *and* nowhere exceeds a limit by more than
-  /// speck_max_excess: a pole, a stone or a wire is far over the limit where it stands, a kerb is long. 0: off.
-  double speck_max_area_m2 = 0.15;
-  double speck_max_excess = 1.5;  ///< as a multiple of the limit
-  /// Sides of the squares by which the safe mask is eroded, then dilated. Equal: specks and threads of safe ground
-  /// vanish and no pixel becomes safe. A larger erosion keeps a distance to everything unsafe.
-  int erode_px = 3;
-  int dilate_px = 3;
-  /// Ground below an obstacle that hangs higher than this over it is unsafe too. 0: off, the paper.
-  double overhang_clearance_m = 0.5;
-  // both
-  double min_confidence = 0.5;  ///< pixels with less are unknown, where a confidence is given
+  PlaneFitConfig plane_fit;       ///< kPlaneFit alone
+  DerivativesConfig derivatives;  ///< kDerivatives alone
+  double min_confidence = 0.5;    ///< pixels with less are unknown, where a confidence is given
   double min_radius_m = 2.0;
   double vehicle_radius_m = 0.85;  ///< from its middle to the tips of its propellers
   /// Taken off every radius: where the vehicle comes down differs by so much from where it wants to.

@@ -20,8 +20,9 @@ struct Disc {
 /// planes need a whole known disc and no guard towards the unknown, so that the cells of the border are enough.
 cv::Mat surely_known(const SiteSelector& selector, const SiteSelection& selection, double metres_per_pixel) {
   const SiteSelectionConfig& config = selector.config();
-  const double border_m = config.method == LandingMethod::kPlaneFit ? config.plane_fit.cell_m
-                                                                    : metres_per_pixel * config.erode_px;
+  const double border_m = config.method == LandingMethod::kPlaneFit
+                              ? config.plane_fit.cell_m
+                              : metres_per_pixel * config.derivatives.erode_px;
   const int border_px = static_cast<int>(std::ceil(border_m / metres_per_pixel));
   cv::Mat known;
   cv::erode(selection.terrain.known, known, cv::Mat::ones(2 * border_px + 1, 2 * border_px + 1, CV_8UC1),

@@ -31,9 +31,9 @@ Scores measure() {
   const SiteSelector noisy_planes(config, k);
   config.plane_fit.noise_m = 0;
   const SiteSelector planes(config, k);
-  config.column_m = 5.5;
+  config.plane_fit.column_m = 5.5;
   const SiteSelector columns(config, k);
-  config.column_m = 0;
+  config.plane_fit.column_m = 0;
   config.method = LandingMethod::kDerivatives;
   const SiteSelector derivatives(config, k);
   Scores scores;

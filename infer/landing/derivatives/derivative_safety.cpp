@@ -16,7 +16,7 @@ cv::Mat square(int side_px) { return cv::getStructuringElement(cv::MORPH_RECT, {
 
 /// Patches that touch the unknown are kept unsafe: nobody knows how they go on.
 void forgive_specks(const Terrain& terrain, const cv::Mat& level_depth_m, double focal_px,
-                    const SiteSelectionConfig& config, cv::Mat& safe) {
+                    const DerivativesConfig& config, double max_slope_rad, cv::Mat& safe) {
   struct Patch {
     double area_m2 = 0;
     float excess = 0;
@@ -24,7 +24,7 @@ void forgive_specks(const Terrain& terrain, const cv::Mat& level_depth_m, double
   cv::Mat labels;
   const int count = cv::connectedComponents(~safe, labels, 8, CV_32S);  // the unknown is part of the patches
   std::vector<Patch> patches(static_cast<std::size_t>(count));
-  const float slope_limit = static_cast<float>(to_radians(config.max_slope_deg));
+  const float slope_limit = static_cast<float>(max_slope_rad);
   const float roughness_limit = static_cast<float>(to_radians(config.max_roughness_deg));
   for (int v = 0; v < safe.rows; ++v) {
     const auto* const label = labels.ptr<int>(v);
@@ -57,11 +57,13 @@ void forgive_specks(const Terrain& terrain, const cv::Mat& level_depth_m, double
 }  // namespace
 
 cv::Mat derivative_safe_mask(const Terrain& terrain, const cv::Mat& level_depth_m,
-                             const PinholeIntrinsics& intrinsics, const SiteSelectionConfig& config) {
-  cv::Mat safe = (terrain.slope_rad < to_radians(config.max_slope_deg)) &
+                             const PinholeIntrinsics& intrinsics, const DerivativesConfig& config,
+                             double max_slope_rad) {
+  cv::Mat safe = (terrain.slope_rad < max_slope_rad) &
                  (terrain.roughness_rad < to_radians(config.max_roughness_deg)) & terrain.known;
   if (config.speck_max_area_m2 > 0) {
-    forgive_specks(terrain, level_depth_m, std::max(intrinsics.fx_px, intrinsics.fy_px), config, safe);
+    forgive_specks(terrain, level_depth_m, std::max(intrinsics.fx_px, intrinsics.fy_px), config,
+                   max_slope_rad, safe);
   }
   if (config.overhang_clearance_m > 0) {
     const cv::Mat obstacles = terrain.known & ~safe;

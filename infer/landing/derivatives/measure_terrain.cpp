@@ -8,7 +8,6 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "foundation/config_reader.hpp"
 #include "geometry/wide_loops.hpp"
 
 namespace alight {
@@ -189,15 +188,8 @@ class RowMeasure {
 
 }  // namespace
 
-void bind(Binder& b, TerrainConfig& c) {
-  b.field("derivative_baseline_m", c.derivative_baseline_m,
-          "ground distance that slope and roughness compare", between(0.05, 10));
-  b.field("smoothing_px", c.smoothing_px, "side of the averaging window, odd; 1: none", between(1, 31));
-  b.check("smoothing_px", c.smoothing_px % 2 == 1, "must be odd, so that the window has a centre");
-}
-
 Terrain measure_terrain(const cv::Mat& level_depth_m, const PinholeIntrinsics& intrinsics,
-                        const TerrainConfig& config) {
+                        const DerivativesConfig& config) {
   if (level_depth_m.type() != CV_32FC1 || level_depth_m.size() != intrinsics.size()) {
     throw std::invalid_argument("measure_terrain: depth must be CV_32FC1 of the camera's size");
   }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "infer/landing/planes/plane_fit.hpp"
+
 namespace alight {
 
 FusedSelector::FusedSelector(const ElevationGridConfig& grid, const SiteSelector& selector)

@@ -7,7 +7,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "foundation/config_reader.hpp"
 #include "infer/landing/ground/free_radius.hpp"
 
 namespace alight {
@@ -31,8 +30,7 @@ cv::Mat lowest_nearby(const ElevationRaster& raster, int reach) {
 
 /// Takes out patches of flat ground most of whose border falls away. A border cell counts where the ground beyond it is
 /// known: at the edge of the view nobody knows how the ground goes on.
-void remove_platforms(const ElevationRaster& raster, const PlaneFitConfig& plane_fit,
-                      const GroundSafetyConfig& config, cv::Mat& safe) {
+void remove_platforms(const ElevationRaster& raster, const PlaneFitConfig& config, cv::Mat& safe) {
   struct Border {
     int seen = 0;
     int falling = 0;
@@ -42,7 +40,7 @@ void remove_platforms(const ElevationRaster& raster, const PlaneFitConfig& plane
   if (count <= 1) return;
   // From the last flat cell its disc reaches to the edge or to the parapet; beyond that it goes down.
   constexpr double kParapet_m = 1.0;
-  const int reach = cells(plane_fit.radius_m + kParapet_m, raster.cell_m);
+  const int reach = cells(config.radius_m + kParapet_m, raster.cell_m);
   const cv::Mat lowest_m = lowest_nearby(raster, reach);
   cv::Mat all_known;  // within reach: behind an edge lies what the edge hides
   cv::erode(raster.known, all_known, cv::Mat::ones(2 * reach + 1, 2 * reach + 1, CV_8UC1), {-1, -1}, 1,
@@ -76,27 +74,18 @@ void remove_platforms(const ElevationRaster& raster, const PlaneFitConfig& plane
 
 }  // namespace
 
-void bind(Binder& b, GroundSafetyConfig& c) {
-  b.field("guard_m", c.guard_m, "safe ground nearer to unsafe ground is given up", between(0, 5));
-  b.field("platform_height_m", c.platform_height_m,
-          "flat ground whose border falls away by more is a roof; 0: off", between(0, 100));
-  b.field("platform_border", c.platform_border, "share of the border that has to fall away",
-          between(0.05, 1));
-}
-
 GroundMap judge_ground(ElevationRaster raster, GroundShape shape, const cv::Mat& hazards,
-                       const PlaneFitConfig& plane_fit, const GroundSafetyConfig& safety,
-                       double max_slope_rad) {
+                       const PlaneFitConfig& config, double max_slope_rad) {
   GroundMap ground;
   ground.raster = std::move(raster);
   if (ground.empty()) return ground;
   ground.shape = std::move(shape);
   cv::Mat flat = (ground.shape.gradient < std::tan(max_slope_rad)) &
-                 (ground.shape.residual_m < plane_fit.max_residual_m) & ground.shape.known;
-  if (safety.platform_height_m > 0) remove_platforms(ground.raster, plane_fit, safety, flat);
+                 (ground.shape.residual_m < config.max_residual_m) & ground.shape.known;
+  if (config.platform_height_m > 0) remove_platforms(ground.raster, config, flat);
   cv::Mat hazard = ground.shape.known & ~flat;
   if (!hazards.empty()) hazard |= hazards;
-  const int guard = cells(safety.guard_m, ground.raster.cell_m);
+  const int guard = cells(config.guard_m, ground.raster.cell_m);
   if (guard > 0)
     cv::dilate(hazard, hazard, disc_mask(guard), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   ground.safe = flat & ~hazard;

@@ -6,7 +6,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "foundation/config_reader.hpp"
 #include "geometry/wide_loops.hpp"
 
 namespace alight {
@@ -126,17 +125,6 @@ void extend_gradient(const cv::Mat& known, int reach, cv::Mat& gradient) {
 }
 
 }  // namespace
-
-void bind(Binder& b, PlaneFitConfig& c) {
-  b.field("cell_m", c.cell_m, "side of a ground cell", between(0.05, 2));
-  b.field("radius_m", c.radius_m, "of the disc on which a cell's plane is fitted", between(0.05, 5));
-  b.field("max_residual_m", c.max_residual_m, "nothing on the disc may lie farther from its plane",
-          between(0.01, 2));
-  b.field("noise_m", c.noise_m, "1 sigma of a single depth, which is no residual; 0: none", between(0, 1));
-  b.field("reach_m", c.reach_m, "ground farther away horizontally is left out", between(5, 500));
-  b.check("radius_m", c.radius_m >= c.cell_m, "must be at least cell_m, or no plane can be fitted");
-  b.check("reach_m", c.reach_m <= 1000 * c.cell_m, "must be at most 1000 cells");
-}
 
 GroundShape fit_planes(const ElevationRaster& raster, const PlaneFitConfig& config) {
   const cv::Size size = raster.size();

@@ -1,11 +1,14 @@
 #include "infer/depth/landing_pipeline.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "foundation/config_reader.hpp"
 #include "tests/infer/fakes.hpp"
+#include "tests/infer/landing/landing_scenes.hpp"
 
 namespace alight {
 namespace {
@@ -70,8 +73,25 @@ TEST(LandingPipeline, BothDecisionsAreMadeAndTheConfiguredOneIsFollowed) {
   EXPECT_FALSE(frames.front().fused);
   EXPECT_THROW(parse_config<LandingConfig>("{fuse: false, site_source: fused}", "x"), ConfigError);
   EXPECT_THROW(parse_config<LandingConfig>("{fuse: false, site_source: both}", "x"), ConfigError);
-  EXPECT_THROW(parse_config<LandingConfig>("{site_source: both, selection: {method: derivatives}}", "x"),
-               ConfigError);
+  for (const std::string source : {"fused", "both"}) {
+    EXPECT_THROW(
+        parse_config<LandingConfig>("{site_source: " + source + ", selection: {method: derivatives}}", "x"),
+        ConfigError);
+  }
+}
+
+TEST(LandingConfig, TheCautiousOneKeepsFartherFromAStone) {
+  const std::string configs = std::string(ALIGHT_SOURCE_DIR) + "/configs/landing/";
+  const auto cautious = load_config<LandingConfig>(configs + "cautious.yaml");
+  const auto normal = load_config<LandingConfig>(configs + "default.yaml");
+  const PinholeIntrinsics k = scenes::camera_of(352, 352);
+  cv::Mat depth = scenes::level_ground(k, 20);
+  scenes::change(depth, k, 20, [](double x, double y) { return std::hypot(x, y) < 0.5; }, 19.5F);
+  const Eigen::Matrix3d R = scenes::attitude(0, 0);
+  const cv::Mat far_safe = SiteSelector(cautious.selection, k).select(depth, R).safe;
+  const cv::Mat near_safe = SiteSelector(normal.selection, k).select(depth, R).safe;
+  EXPECT_GT(cv::countNonZero(near_safe & ~far_safe), 100);
+  EXPECT_EQ(cv::countNonZero(far_safe & ~near_safe), 0);
 }
 
 TEST(LandingPipeline, NoTrustedDepthNoSiteAndWanderAfterFiveSeconds) {

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "foundation/config_reader.hpp"
 #include "infer/landing/site_selector.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
@@ -34,7 +33,7 @@ TEST_P(SlopeClass, IsDecidedExactly) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const double gradient = std::tan(to_radians(GetParam()));
   SiteSelectionConfig config = derivatives();
-  config.erode_px = config.dilate_px = 1;
+  config.derivatives.erode_px = config.derivatives.dilate_px = 1;
   const SiteSelection selection =
       SiteSelector(config, k).select(scenes::plane(k, 20, gradient * 0.6, gradient * 0.8), kDown);
   EXPECT_EQ(selection.found(), GetParam() < 10);
@@ -47,7 +46,8 @@ INSTANTIATE_TEST_SUITE_P(Planes, SlopeClass, testing::Values(0.0, 5.0, 9.0, 9.9,
 TEST(SiteSelector, LevelGroundIsSafeUnderAnyRollAndPitch) {
   const PinholeIntrinsics k = camera_of(352, 352);
   SiteSelectionConfig config = derivatives();
-  config.erode_px = config.dilate_px = 1;  // so that the corners of what is known stay
+  config.derivatives.erode_px = config.derivatives.dilate_px =
+      1;  // so that the corners of what is known stay
   const SiteSelector selector(config, k);
   for (const double tilt_x : {-15.0, 0.0, 7.0, 20.0}) {
     for (const double tilt_y : {-20.0, -3.0, 0.0, 12.0}) {
@@ -98,7 +98,7 @@ TEST(SiteSelector, RadiusFollowsFromDepthFocalLengthAndPixels) {
 TEST(SiteSelector, CircleOfASquareFieldIsItsIncircle) {
   const PinholeIntrinsics k = camera_of(352, 300);
   SiteSelectionConfig config = derivatives();
-  config.erode_px = config.dilate_px = 1;
+  config.derivatives.erode_px = config.derivatives.dilate_px = 1;
   cv::Mat depth(k.size(), CV_32FC1, cv::Scalar(0));
   depth(cv::Rect(40, 60, 141, 141)).setTo(22.0);  // baseline 10 px; smoothing takes 2 px a side
   const SiteSelection selection = SiteSelector(config, k).select(depth, kDown);
@@ -185,13 +185,13 @@ TEST(SiteSelector, MarginAndErosionTakeTheirPart) {
   EXPECT_NEAR(SiteSelector(config, k).select(level_ground(k, 20), kDown).largest->radius_m, plain_m - 0.7,
               1e-4);
   config.margin_m = 0;
-  config.erode_px = 23;
-  config.dilate_px = 3;
+  config.derivatives.erode_px = 23;
+  config.derivatives.dilate_px = 3;
   cv::Mat boxed = level_ground(k, 20);
   boxed(cv::Rect(100, 100, 30, 30)).setTo(15);
   const SiteSelector inflating(config, k);
   const SiteSelection inflated = inflating.select(boxed, kDown);
-  config.erode_px = 3;
+  config.derivatives.erode_px = 3;
   const SiteSelection opened = SiteSelector(config, k).select(boxed, kDown);
   cv::Mat lost = opened.safe & ~inflated.safe;
   EXPECT_GT(cv::countNonZero(lost), 0);
@@ -203,7 +203,7 @@ TEST(SiteSelector, NothingThatWasUnsafeBecomesSafeByOpening) {
   const cv::Mat depth = scenes::with_noise(level_ground(k, 30), 0.06, 5);
   SiteSelectionConfig config = derivatives();
   const SiteSelection opened = SiteSelector(config, k).select(depth, kDown);
-  config.erode_px = config.dilate_px = 1;
+  config.derivatives.erode_px = config.derivatives.dilate_px = 1;
   const SiteSelection raw = SiteSelector(config, k).select(depth, kDown);
   EXPECT_EQ(cv::countNonZero(opened.safe & ~raw.safe), 0);
 }
@@ -231,7 +231,7 @@ TEST(SiteSelector, GroundBelowAWireIsUnsafe) {
       10);  // a wire 2.27 m right of the camera and 10 m up is seen where the ground is 4.55 m right
   SiteSelectionConfig config = derivatives();
   const SiteSelection warned = SiteSelector(config, k).select(depth, kDown);
-  config.overhang_clearance_m = 0;
+  config.derivatives.overhang_clearance_m = 0;
   const SiteSelection paper = SiteSelector(config, k).select(depth, kDown);
   EXPECT_EQ(warned.safe.at<std::uint8_t>(176, 226), 0);
   EXPECT_EQ(paper.safe.at<std::uint8_t>(176, 226), 255);
@@ -252,13 +252,6 @@ TEST(SiteSelector, WeakSpecksAreNoiseAndStrongOrLongOnesAreNot) {
   EXPECT_TRUE(safe_at_centre(5, 5, 0.06)) << "a weak speck";
   EXPECT_FALSE(safe_at_centre(5, 5, 0.20)) << "a stone";
   EXPECT_FALSE(safe_at_centre(5, 200, 0.06)) << "a kerb";
-}
-
-TEST(SiteSelectionConfig, ShippedFilesAndBadValues) {
-  EXPECT_THROW(parse_config<SiteSelectionConfig>("{erode_px: 3, dilate_px: 5}", "x"), ConfigError);
-  EXPECT_THROW(parse_config<SiteSelectionConfig>("{terrain: {smoothing_px: 4}}", "x"), ConfigError);
-  EXPECT_THROW(parse_config<SiteSelectionConfig>("{max_slope: 4}", "x"), ConfigError);
-  EXPECT_EQ(parse_config<SiteSelectionConfig>("{max_slope_deg: 4}", "x").max_slope_deg, 4);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace alight {
 
 /// When a depth map is good enough to look for a landing site in it: this share of the pixels with true depth is within
 /// the larger one of two tolerances. The lowest step that the site selection tells from flat ground is 9 cm
-/// (TerrainConfig), so an error of 10 cm is the least that makes or hides an obstacle; 1 % is 10 cm at 10 m, where a
+/// (DerivativesConfig), so an error of 10 cm is the least that makes or hides an obstacle; 1 % is 10 cm at 10 m, where a
 /// vehicle that descends decides. The rest of the pixels are edges, which are unsafe ground in any case.
 struct GoodDepth {
   double share = 0.9;

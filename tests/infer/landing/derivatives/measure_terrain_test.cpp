@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Slopes, TerrainOnPlanes,
 TEST(Terrain, AnglesAreThoseOfTheirDefinition) {
   const PinholeIntrinsics k = camera_of(97, 83);
   const cv::Mat depth = scenes::with_noise(scenes::plane(k, 12, 0.2, -0.3), 0.3, 5);
-  TerrainConfig config;
+  DerivativesConfig config;
   config.smoothing_px = 1;
   const Terrain terrain = measure_terrain(depth, k, config);
   const auto point = [&](int u, int v) {

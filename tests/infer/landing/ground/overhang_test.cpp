@@ -115,7 +115,7 @@ TEST(ColumnsInView, GroundBelowACrownBesideTheImageIsNotSafe) {
     return std::sqrt(cv::countNonZero(s.safe)) / 2 * 12 / 440;
   };
   EXPECT_NEAR(safe_half_m(), 0.4 * 12 - 0.6, 0.3);
-  config.column_m = 4;
+  config.plane_fit.column_m = 4;
   EXPECT_NEAR(safe_half_m(), 0.4 * (12 - 4), 0.2);
 }
 

@@ -6,6 +6,7 @@
 
 #include "foundation/config_reader.hpp"
 #include "infer/landing/memory/fused_selection.hpp"
+#include "infer/landing/planes/plane_fit.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
 namespace alight {

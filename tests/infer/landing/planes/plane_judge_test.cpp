@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "foundation/config_reader.hpp"
 #include "infer/landing/site_selector.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
@@ -91,7 +90,7 @@ TEST(PlaneFitSelection, RoofsAreNotGround) {
   const SiteSelection warned = SiteSelector(config, k).select(depth, camera_at(0, 0, 30));
   EXPECT_EQ(warned.safe.at<std::uint8_t>(176, 176), 0);
   EXPECT_EQ(warned.safe.at<std::uint8_t>(176, 300), 255);
-  config.ground.platform_height_m = 0;
+  config.plane_fit.platform_height_m = 0;
   EXPECT_EQ(SiteSelector(config, k).select(depth, camera_at(0, 0, 30)).safe.at<std::uint8_t>(176, 176), 255);
 }
 
@@ -139,7 +138,7 @@ TEST(PlaneFitSelection, ARoofWhoseParapetsHideWhatIsBehindThemIsNoGround) {
       return cv::countNonZero(safe & (depth < 12.5));
     };
     EXPECT_EQ(safe_on_roof(), 0) << noise_m;
-    config.ground.platform_height_m = 0;
+    config.plane_fit.platform_height_m = 0;
     EXPECT_GT(safe_on_roof(), 500) << noise_m;
   }
 }
@@ -161,16 +160,6 @@ TEST(PlaneFitSelection, SitesAreSeparateAndTheBestScoreComesFirst) {
       EXPECT_GT((a.p_world - b.p_world).norm(), std::max(a.radius_m, b.radius_m));
     }
   }
-}
-
-TEST(PlaneFitConfig, BadValuesAreRefused) {
-  EXPECT_THROW(parse_config<SiteSelectionConfig>("{plane_fit: {cell_m: 0.5, radius_m: 0.2}}", "x"),
-               ConfigError);
-  EXPECT_THROW(parse_config<SiteSelectionConfig>("{vehicle_radius_m: 3}", "x"), ConfigError);
-  EXPECT_THROW(parse_config<SiteSelectionConfig>("{method: guess}", "x"), ConfigError);
-  EXPECT_THROW(parse_config<SiteSelectionConfig>("{ranking: {weight_size: 0}}", "x"), ConfigError);
-  EXPECT_EQ(parse_config<SiteSelectionConfig>("{method: derivatives}", "x").method,
-            LandingMethod::kDerivatives);
 }
 
 }  // namespace
