@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using alight::RigVerdict;
 
 constexpr std::array<double, 5> kLidarTurns_deg = {0.15, 0.2, 0.3, 0.4, 0.5};
-constexpr double kEyeTurn_deg = 0.1;
+constexpr double kCameraTurn_deg = 0.1;
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
 struct Options {
@@ -79,8 +79,8 @@ class Bench {
     for (const auto& [key, tally] : lidar_)
       tally.print(std::string("LiDAR turned by ") + std::to_string(key.second).substr(0, 4) + " deg about " +
                   kAxes[static_cast<std::size_t>(key.first)]);
-    for (const auto& [axis, tally] : eye_)
-      tally.print(std::string("right camera turned by ") + std::to_string(kEyeTurn_deg).substr(0, 4) +
+    for (const auto& [axis, tally] : camera_)
+      tally.print(std::string("right camera turned by ") + std::to_string(kCameraTurn_deg).substr(0, 4) +
                   " deg about " + kAxes[static_cast<std::size_t>(axis)]);
   }
 
@@ -97,8 +97,8 @@ class Bench {
         record(lidar_[{axis, deg}], alight::check_rig(flight, config_), axis, sign * deg);
       }
       alight::Rig rig = rig_;
-      rig.T_cam1_cam0 = turned(rig_.T_cam1_cam0, axis, sign * kEyeTurn_deg);
-      record(eye_[axis], alight::check_rig(read(bag, rig), config_), 6 + axis, sign * kEyeTurn_deg);
+      rig.T_cam1_cam0 = turned(rig_.T_cam1_cam0, axis, sign * kCameraTurn_deg);
+      record(camera_[axis], alight::check_rig(read(bag, rig), config_), 6 + axis, sign * kCameraTurn_deg);
     }
   }
 
@@ -129,7 +129,7 @@ class Bench {
   alight::RigCheckConfig config_;
   Tally truth_;
   std::map<std::pair<int, double>, Tally> lidar_;
-  std::map<int, Tally> eye_;
+  std::map<int, Tally> camera_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace alight {
 namespace {
 
-/// T_right_left of rectified eyes. @param baseline_m [B] @returns [B,4,4]
+/// T_right_left of rectified cameras. @param baseline_m [B] @returns [B,4,4]
 torch::Tensor right_from_left(const torch::Tensor& baseline_m) {
   torch::Tensor T = torch::eye(4, baseline_m.options()).repeat({baseline_m.size(0), 1, 1});
   T.select(1, 0).select(1, 3).copy_(-baseline_m);

@@ -107,7 +107,8 @@ void bind(Binder& b, DepthCompletionConfig& c) {
            "last layer: depth, or a gated mix of the corrected prior and the corrected fill");
   b.choice("prior", c.prior, {{"constant", Prior::kConstant}, {"altitude", Prior::kAltitude}},
            "depth before any point: depth_scale_m, or level ground at the vehicle's height");
-  b.field("stereo", c.stereo, "the image branch sees the parallax that the right eye leaves over the prior");
+  b.field("stereo", c.stereo,
+          "the image branch sees the parallax that the right camera leaves over the prior");
   b.field("detail_width", c.detail_width, "channels of a full-resolution layer on the inputs; 0: none",
           between(0, 1024));
   b.field("fill_smoothing", c.fill_smoothing, "smoothing passes at every level of the fill", between(0, 100));

@@ -44,7 +44,8 @@ struct DepthCompletionConfig {
   DepthInput depth_input = DepthInput::kFilled;
   Head head = Head::kGated;
   Prior prior = Prior::kConstant;
-  bool stereo = false;  ///< the image branch also sees what the right eye says (models/inputs/stereo_cue.hpp)
+  bool stereo =
+      false;  ///< the image branch also sees what the right camera says (models/inputs/stereo_cue.hpp)
   int detail_width = 0;    ///< channels of a full-resolution layer on the inputs themselves; 0: none
   int fill_smoothing = 0;  ///< see fill_pyramid
   double depth_scale_m = 20.0;

@@ -118,7 +118,7 @@ std::vector<TopicState> TopicReader::topics() const {
 std::map<std::string, std::int64_t> TopicReader::dropped() const {
   std::map<std::string, std::int64_t> dropped = assembler_.dropped();
   if (bad_ > 0) dropped["messages that do not decode"] = bad_;
-  if (assembler_.unpaired() > 0) dropped["images without the other eye's"] = assembler_.unpaired();
+  if (assembler_.unpaired() > 0) dropped["images without the other camera's"] = assembler_.unpaired();
   return dropped;
 }
 

@@ -40,7 +40,7 @@ class TopicReader {
   TopicReader(const TopicReader&) = delete;
   TopicReader& operator=(const TopicReader&) = delete;
 
-  /// Forgets the images that wait for their other eye: the time has jumped.
+  /// Forgets the images that wait for their other camera: the time has jumped.
   void restart();
 
   std::vector<TopicState> topics() const;

@@ -7,7 +7,7 @@
 
 namespace alight {
 
-/// What the network is shown of a batch before its points: both eyes, and the altitude plane where the height is known.
+/// What the network is shown of a batch before its points: both cameras, and the altitude plane where the height is known.
 /// @param knows_height [B] bool
 SceneView scene_view(const Batch& batch, const torch::Tensor& image, const torch::Tensor& right,
                      const torch::Tensor& knows_height, const DepthCompletionConfig& config);

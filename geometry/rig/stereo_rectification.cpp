@@ -31,7 +31,7 @@ PinholeIntrinsics intrinsics_of(const cv::Mat& projection, cv::Size size) {
           size.height};
 }
 
-/// Pixel map of one eye: where in the raw image each rectified pixel comes from. CV_32FC2
+/// Pixel map of one camera: where in the raw image each rectified pixel comes from. CV_32FC2
 cv::Mat rectification_map(const Camera& camera, const cv::Mat& R_rectified_camera,
                           const PinholeIntrinsics& rectified) {
   cv::Mat map_u;
@@ -49,7 +49,7 @@ cv::Mat rectification_map(const Camera& camera, const cv::Mat& R_rectified_camer
   return map;
 }
 
-/// cv::stereoRectify with the model of the lenses: both eyes share focal length and principal point
+/// cv::stereoRectify with the model of the lenses: both cameras share focal length and principal point
 /// (CALIB_ZERO_DISPARITY), no magnification beyond valid pixels (alpha 0).
 struct Rectification {
   cv::Mat R_left, R_right, P_left, P_right;

@@ -11,7 +11,7 @@ namespace alight {
 /// (p_right = p_camera - (baseline_m, 0, 0)), and where LiDAR and IMU are. `camera` is the rectified left
 /// camera.
 struct RectifiedRig {
-  PinholeIntrinsics intrinsics;  ///< both eyes
+  PinholeIntrinsics intrinsics;  ///< both cameras
   double baseline_m = 0;         ///< 0: mono
   Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_camera_imu = Eigen::Isometry3d::Identity();
@@ -21,11 +21,11 @@ struct RectifiedRig {
   }
 };
 
-/// Undistorts and rectifies both eyes (cv::stereoRectify), or the one eye of a mono rig. Images of a rig that
+/// Undistorts and rectifies both cameras (cv::stereoRectify), or the one camera of a mono rig. Images of a rig that
 /// is rectified already pass through untouched.
 class StereoRectifier {
  public:
-  /// @throws ConfigError if the eyes' resolutions differ or the baseline is not sideways (stereo side by side
+  /// @throws ConfigError if the cameras' resolutions differ or the baseline is not sideways (stereo side by side
   /// only)
   explicit StereoRectifier(const Rig& rig);
 

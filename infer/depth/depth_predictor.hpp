@@ -20,7 +20,7 @@ class EncodedImage {
 /// What a predictor is told of a moment besides LiDAR points. Only `left` is always there.
 struct PredictorView {
   cv::Mat left;     ///< rectified, cropped, CV_8UC3 BGR or CV_8UC1
-  cv::Mat right{};  ///< the same of the right eye; empty: mono or lost
+  cv::Mat right{};  ///< the same of the right camera; empty: mono or lost
   double height_m = std::numeric_limits<double>::quiet_NaN();  ///< above take-off; NaN: unknown
   Eigen::Vector3d down_camera =
       Eigen::Vector3d::Zero();  ///< the world's down in camera coordinates, unit length

@@ -85,8 +85,8 @@ StereoTest::StereoTest(const cv::Mat& left, const cv::Mat& right, const Rectifie
   ssim_plain_ = ssim_map(left_, right_);
 }
 
-/// Rectified eyes differ by a disparity along the row, so a row at a time is all there is to do: its surfaces go to the
-/// right eye, the nearest wins, and there each looks up its luminance in the left image.
+/// Rectified cameras differ by a disparity along the row, so a row at a time is all there is to do: its surfaces go to the
+/// right camera, the nearest wins, and there each looks up its luminance in the left image.
 RightView StereoTest::reconstruct(const cv::Mat& depth_m) const {
   const auto focal_baseline_px_m = static_cast<float>(rig_.intrinsics.fx_px * rig_.baseline_m);
   const int width = depth_m.cols;

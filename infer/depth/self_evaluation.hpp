@@ -51,7 +51,7 @@ Verdict judge(const StereoScores& scores, const StereoTestConfig& config);
 /// The right image made from the left one, beside the true one.
 struct RightView {
   cv::Mat similarity;  ///< CV_32FC1, SSIM of the two; empty without a right image
-  cv::Mat valid;       ///< CV_8UC1, 255 where a surface was seen by both eyes
+  cv::Mat valid;       ///< CV_8UC1, 255 where a surface was seen by both cameras
 };
 
 /// Scores depth maps of one stereo pair.

@@ -32,11 +32,11 @@ cv::Mat grey_middle(const cv::Mat& image, int side_px) {
 
 }  // namespace
 
-EyeShift eye_shift(const cv::Mat& left, const cv::Mat& right, int window_px) {
+StereoShift stereo_shift(const cv::Mat& left, const cv::Mat& right, int window_px) {
   const int side_px = std::min({window_px, left.cols, left.rows});
   const cv::Mat middle_left = grey_middle(left, side_px);
   const cv::Mat middle_right = grey_middle(right, side_px);
-  EyeShift shift;
+  StereoShift shift;
   if (std::min(contrast(middle_left), contrast(middle_right)) < kLeastContrast) return shift;
   cv::Mat window;
   cv::createHanningWindow(window, {side_px, side_px}, CV_32FC1);
@@ -44,21 +44,21 @@ EyeShift eye_shift(const cv::Mat& left, const cv::Mat& right, int window_px) {
   return shift;
 }
 
-EyeAlignment::EyeAlignment(const HealthConfig& config, const RectifiedRig& rig)
+CameraAlignment::CameraAlignment(const HealthConfig& config, const RectifiedRig& rig)
     : config_(config),
       focal_baseline_px_m_(rig.intrinsics.fx_px * rig.baseline_m),
-      swapped_("stereo", "eyes swapped"),
-      misaligned_("stereo", "eyes misaligned") {}
+      swapped_("stereo", "cameras swapped"),
+      misaligned_("stereo", "cameras misaligned") {}
 
-bool EyeAlignment::due(std::int64_t t_ns) const {
+bool CameraAlignment::due(std::int64_t t_ns) const {
   return suspected() || !last_ns_ || to_seconds(t_ns - *last_ns_) >= config_.stereo.period_s;
 }
 
-void EyeAlignment::add(std::int64_t t_ns, const cv::Mat& left, const cv::Mat& right,
-                       std::optional<double> distance_m) {
+void CameraAlignment::add(std::int64_t t_ns, const cv::Mat& left, const cv::Mat& right,
+                          std::optional<double> distance_m) {
   last_ns_ = t_ns;
   if (!distance_m || *distance_m <= 0) return;
-  const EyeShift measured = eye_shift(left, right, config_.stereo.window_px);
+  const StereoShift measured = stereo_shift(left, right, config_.stereo.window_px);
   if (measured.response < config_.stereo.min_response) return;
   const double disparity_px = focal_baseline_px_m_ / *distance_m;
   const cv::Point2d& shift_px = measured.shift_px;
@@ -73,7 +73,7 @@ void EyeAlignment::add(std::int64_t t_ns, const cv::Mat& left, const cv::Mat& ri
   misaligned_.look(config_, t_ns, !swapped && off_px > limit_px, text);
 }
 
-void EyeAlignment::report(std::vector<HealthFinding>& findings) const {
+void CameraAlignment::report(std::vector<HealthFinding>& findings) const {
   swapped_.report(findings);
   misaligned_.report(findings);
 }

@@ -11,28 +11,28 @@
 
 namespace alight {
 
-/// Where the right eye shows what the left one shows, over the middle of the image.
-struct EyeShift {
+/// Where the right camera shows what the left one shows, over the middle of the image.
+struct StereoShift {
   cv::Point2d shift_px;  ///< right less left; (-disparity, 0) for a healthy pair
   double response = 0;   ///< of the phase correlation, 0 to 1; 0 without texture
 };
 
 /// @param left, right rectified, one size, CV_8UC1 or CV_8UC3. @param window_px side of the square that is compared
-EyeShift eye_shift(const cv::Mat& left, const cv::Mat& right, int window_px);
+StereoShift stereo_shift(const cv::Mat& left, const cv::Mat& right, int window_px);
 
-/// Whether the two eyes belong together: one exposure, each on its own side. The distance of the ground says by how much
-/// the right image has to be shifted; swapped eyes are shifted the other way, and eyes of different moments by the
+/// Whether the two cameras belong together: one exposure, each on its own side. The distance of the ground says by how much
+/// the right image has to be shifted; swapped cameras are shifted the other way, and cameras of different moments by the
 /// vehicle's motion between them, up and down too. A hovering vehicle hides a shift in time, and loses nothing by it.
-class EyeAlignment {
+class CameraAlignment {
  public:
-  EyeAlignment(const HealthConfig& config, const RectifiedRig& rig);
+  CameraAlignment(const HealthConfig& config, const RectifiedRig& rig);
 
   /// Whether a pair is to be compared now, which costs some milliseconds.
   bool due(std::int64_t t_ns) const;
   /// @param left, right rectified. @param distance_m plane depth of the ground, as well as it is known
   void add(std::int64_t t_ns, const cv::Mat& left, const cv::Mat& right, std::optional<double> distance_m);
 
-  /// Neither confirmed nor suspected: the right eye may be used.
+  /// Neither confirmed nor suspected: the right camera may be used.
   bool usable() const { return !swapped_.present() && !misaligned_.present() && !suspected(); }
   void report(std::vector<HealthFinding>& findings) const;
 

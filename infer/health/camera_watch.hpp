@@ -12,13 +12,13 @@
 
 namespace alight {
 
-/// Whether one eye delivers pictures of what lies before it: not black, not over-exposed, not the same one again.
-class EyeWatch {
+/// Whether one camera delivers pictures of what lies before it: not black, not over-exposed, not the same one again.
+class CameraWatch {
  public:
   /// @param sensor "left camera" or "right camera"
-  EyeWatch(const HealthConfig& config, const std::string& sensor);
+  CameraWatch(const HealthConfig& config, const std::string& sensor);
 
-  /// @param image CV_8UC1 or CV_8UC3; empty: the eye is missing. @param p_world where the vehicle is, if known
+  /// @param image CV_8UC1 or CV_8UC3; empty: the camera is missing. @param p_world where the vehicle is, if known
   /// @returns whether this very picture may be used
   bool add(std::int64_t t_ns, const cv::Mat& image, const std::optional<Eigen::Vector3d>& p_world);
 

@@ -4,7 +4,7 @@
 
 namespace alight {
 
-void bind(Binder& b, EyeHealthConfig& c) {
+void bind(Binder& b, CameraHealthConfig& c) {
   b.field("black_level", c.black_level, "a darker mean is black, grey levels", between(0, 255));
   b.field("saturated_level", c.saturated_level, "brighter pixels hold no texture, grey levels",
           between(1, 255));
@@ -17,12 +17,13 @@ void bind(Binder& b, EyeHealthConfig& c) {
 }
 
 void bind(Binder& b, StereoHealthConfig& c) {
-  b.field("window_px", c.window_px, "side of the square in which the eyes are compared", between(32, 4096));
-  b.field("period_s", c.period_s, "between two comparisons of the eyes", between(0, 10));
+  b.field("window_px", c.window_px, "side of the square in which the cameras are compared",
+          between(32, 4096));
+  b.field("period_s", c.period_s, "between two comparisons of the cameras", between(0, 10));
   b.field("min_response", c.min_response, "phase correlation below it says nothing", between(0, 1));
-  b.field("max_misalignment_px", c.max_misalignment_px, "between the eyes' shift and the expected disparity",
-          between(0.1, 100));
-  b.field("min_disparity_px", c.min_disparity_px, "with less, swapped eyes are not told from right ones",
+  b.field("max_misalignment_px", c.max_misalignment_px,
+          "between the cameras' shift and the expected disparity", between(0.1, 100));
+  b.field("min_disparity_px", c.min_disparity_px, "with less, swapped cameras are not told from right ones",
           between(0.1, 100));
 }
 
@@ -64,8 +65,8 @@ void bind(Binder& b, HealthConfig& c) {
   b.field("max_behind_s", c.max_behind_s, "stamp earlier than the other sensors'; more is a clock jump",
           between(0.001, 60));
   b.field("max_disorder_share", c.max_disorder_share, "of messages older than the one before", between(0, 1));
-  b.section("eye", c.eye, "when a picture is no picture");
-  b.section("stereo", c.stereo, "when the eyes do not belong together");
+  b.section("camera", c.camera, "when a picture is no picture");
+  b.section("stereo", c.stereo, "when the cameras do not belong together");
   b.section("lidar", c.lidar, "when echoes are not of the surroundings");
   b.section("pose", c.pose, "when the pose cannot be true");
 }

@@ -4,8 +4,8 @@
 
 namespace alight {
 
-/// When an eye's picture is no picture.
-struct EyeHealthConfig {
+/// When a camera's picture is no picture.
+struct CameraHealthConfig {
   double black_level = 12;           ///< grey levels of 255; a darker mean is black
   double saturated_level = 250;      ///< grey levels of 255; brighter pixels hold no texture
   double max_saturated_share = 0.5;  ///< of the pixels; more is over-exposed
@@ -13,16 +13,16 @@ struct EyeHealthConfig {
   double frozen_difference = 0.05;
   double frozen_move_m = 0.5;  ///< a picture that never changed is frozen once the vehicle has moved so far
 };
-void bind(Binder& b, EyeHealthConfig& c);
+void bind(Binder& b, CameraHealthConfig& c);
 
-/// When the two eyes do not belong together.
+/// When the two cameras do not belong together.
 struct StereoHealthConfig {
   int window_px = 256;        ///< side of the compared square in the middle of the image
   double period_s = 0.1;      ///< time between two comparisons
   double min_response = 0.1;  ///< of the phase correlation, 0 to 1; below it the comparison says nothing
   double max_misalignment_px =
-      1;  ///< between the measured shift of the eyes and the one that the distance asks for
-  double min_disparity_px = 0.5;  ///< with less, swapped eyes cannot be told from right ones
+      1;  ///< between the measured shift of the cameras and the one that the distance asks for
+  double min_disparity_px = 0.5;  ///< with less, swapped cameras cannot be told from right ones
 };
 void bind(Binder& b, StereoHealthConfig& c);
 
@@ -60,7 +60,7 @@ struct HealthConfig {
   double max_ahead_s = 0.1;   ///< a stamp later than the other sensors' by more comes from a wrong clock
   double max_behind_s = 0.3;  ///< a stamp earlier than the other sensors' by more, too
   double max_disorder_share = 0.2;  ///< of a sensor's last messages that may be older than the one before
-  EyeHealthConfig eye;
+  CameraHealthConfig camera;
   StereoHealthConfig stereo;
   LidarHealthConfig lidar;
   PoseHealthConfig pose;

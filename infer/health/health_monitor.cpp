@@ -75,12 +75,12 @@ void HealthMonitor::receive(const StereoFrame& frame, Passed& passed) {
   if (!left_.add(frame.t_ns, frame.left, pose_.p_world())) fit.left = cv::Mat();
   const bool right =
       (!frame.right.empty() || expects_right_) && right_.add(frame.t_ns, frame.right, pose_.p_world());
-  if (!fit.left.empty() && right) judge_eyes(frame);
+  if (!fit.left.empty() && right) judge_cameras(frame);
   if (!right || !alignment_.usable() || fit.left.empty()) fit.right = cv::Mat();
   passed.emplace_back(std::move(fit));
 }
 
-void HealthMonitor::judge_eyes(const StereoFrame& frame) {
+void HealthMonitor::judge_cameras(const StereoFrame& frame) {
   if (!alignment_.due(frame.t_ns)) return;
   alignment_.add(frame.t_ns, rectifier_.rectify_left(frame.left), rectifier_.rectify_right(frame.right),
                  ground_distance_m());

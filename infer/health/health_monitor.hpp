@@ -29,7 +29,7 @@ enum class DepthMakers {
 /// no clock but the messages' times, so the same messages give the same verdicts.
 ///
 /// What looks wrong is not used from the first sign on; a finding takes HealthConfig::confirm_s more. A finding about one
-/// sensor degrades: a bad left eye leaves the LiDAR, a bad right eye leaves one eye, a bad LiDAR leaves the images.
+/// sensor degrades: a bad left camera leaves the LiDAR, a bad right camera leaves one camera, a bad LiDAR leaves the images.
 /// Without a pose, or with neither depth from LiDAR nor a stereo pair to judge a prediction by, the state is failed.
 class HealthMonitor {
  public:
@@ -64,7 +64,7 @@ class HealthMonitor {
   void receive(const HeightSample& sample, Passed& passed);
   template <class Sample>
   void receive_pose(Stream stream, const Sample& sample, Passed& passed);
-  void judge_eyes(const StereoFrame& frame);
+  void judge_cameras(const StereoFrame& frame);
   void release_packets(bool all, Passed& passed);
   void spoil_lidar();
   std::optional<double> ground_distance_m() const;
@@ -83,9 +83,9 @@ class HealthMonitor {
   std::optional<std::int64_t> begin_ns_;
   std::int64_t now_ns_ = 0;
   std::vector<StreamWatch> streams_;
-  EyeWatch left_;
-  EyeWatch right_;
-  EyeAlignment alignment_;
+  CameraWatch left_;
+  CameraWatch right_;
+  CameraAlignment alignment_;
   LidarWatch lidar_;
   PoseWatch pose_;
   std::optional<HeightSample> height_;

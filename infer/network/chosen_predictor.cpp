@@ -12,7 +12,7 @@ namespace alight {
 
 namespace {
 
-/// With one eye there is no right image to reconstruct.
+/// With one camera there is no right image to reconstruct.
 void say_what_mono_means(const DepthEngineConfig& config) {
   spdlog::info("mono rig: predictions are judged by held-out LiDAR points, not by stereo");
   if (config.image.self_evaluation.decide_by == DecideBy::kStereo) {

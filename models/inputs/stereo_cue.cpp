@@ -15,7 +15,7 @@ namespace {
 namespace F = torch::nn::functional;
 constexpr int kScales = 3;
 constexpr std::int64_t kWindow_px = 9;
-constexpr std::int64_t kLocalMean_px = 15;  // eyes differ in brightness; what is left of it is no parallax
+constexpr std::int64_t kLocalMean_px = 15;  // cameras differ in brightness; what is left of it is no parallax
 /// Variance of the noise in a window's mean product over that of ln(depth / prior) on real ground: the ridge term.
 constexpr double kRidge = 1e-4;
 constexpr double kLargestCue = 1.5;
@@ -113,7 +113,7 @@ cv::Mat grey_plane(const torch::Tensor& image, std::int64_t sample) {
   return (plane_of(image, sample, 0) + plane_of(image, sample, 1) + plane_of(image, sample, 2)) / 3;
 }
 
-/// right(u - disparity, v) and where that lies inside: rectified eyes differ along rows alone.
+/// right(u - disparity, v) and where that lies inside: rectified cameras differ along rows alone.
 void warp_rows(const cv::Mat& right, const cv::Mat& disparity_px, cv::Mat& image, cv::Mat& inside) {
   image.create(right.size(), CV_32FC1);
   inside.create(right.size(), CV_32FC1);

@@ -9,7 +9,7 @@ namespace alight {
 /// Channels that stereo_cue() returns: an estimate and its weight at every scale.
 constexpr std::int64_t kStereoCueChannels = 6;
 
-/// What the right eye says about depth, as one step of Lucas and Kanade (1981) around a prior: the right image is
+/// What the right camera says about depth, as one step of Lucas and Kanade (1981) around a prior: the right image is
 /// warped by the prior's disparity, and the least-squares shift that is left over in a window around a pixel tells how
 /// much nearer than the prior the surface is. Done on the image, its half and its quarter, because a step only reaches
 /// as far as the image is smooth.

@@ -176,8 +176,8 @@ def main():
     left, top = (width - size) // 2, (height - size) // 2
     k = (fx, fy, cx - left, cy - top)
     topics = {rig["lidar0"]["rostopic"]: "lidar"}
-    for eye, camera in (("left", "cam0"), ("right", "cam1")):
-        topics[rig[camera]["rostopic"]] = topics[rig[camera]["rostopic"] + "/compressed"] = eye
+    for side, camera in (("left", "cam0"), ("right", "cam1")):
+        topics[rig[camera]["rostopic"]] = topics[rig[camera]["rostopic"] + "/compressed"] = side
     before_ns, after_ns = int(options.before * 1e9), int(options.after * 1e9)
     if not options.maps_only:
         for name in ("left", "right", "depth", "offset"):
@@ -205,9 +205,9 @@ def main():
                 depth, offset = depth_map(t_image_ns, t_ns, p_world, T_world_camera[:3, :3], T_world_camera[:3, 3], k, size)
                 if not options.maps_only:
                     name = f"{maps:06d}.png"
-                    for eye in ("left", "right"):
-                        image = read_image(*images[eye])[top:top + size, left:left + size]
-                        cv2.imwrite(str(options.output / eye / name), image, png)
+                    for side in ("left", "right"):
+                        image = read_image(*images[side])[top:top + size, left:left + size]
+                        cv2.imwrite(str(options.output / side / name), image, png)
                     depth_16 = np.clip(np.rint(depth * 256), 0, 65535).astype(np.uint16)
                     cv2.imwrite(str(options.output / "depth" / name), depth_16, png)
                     offset_16 = np.where(depth > 0, np.rint(offset / 1000) + 32768, 0).astype(np.uint16)

@@ -139,7 +139,7 @@ def cue_at_scale(left, warped, valid, disparity_px):
 
 
 def stereo_cue(left, right, prior_m, focal_baseline_px_m):
-    """What the right eye says about ln(prior / depth) (models/inputs/stereo_cue.hpp) -> [B,6,H,W]."""
+    """What the right camera says about ln(prior / depth) (models/inputs/stereo_cue.hpp) -> [B,6,H,W]."""
     known = (prior_m > 0).to(prior_m.dtype)
     safe_prior_m = torch.where(prior_m > 0, prior_m, torch.ones_like(prior_m))
     disparity_px = known * focal_baseline_px_m.view(-1, 1, 1, 1) / safe_prior_m

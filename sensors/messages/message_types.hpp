@@ -24,7 +24,7 @@ struct CameraImage {
 
 struct UndecodedFrame;
 
-/// Both eyes of one exposure, raw as in the log (not rectified), grey or BGR. `right` is empty for a mono
+/// Both cameras of one exposure, raw as in the log (not rectified), grey or BGR. `right` is empty for a mono
 /// rig.
 struct StereoFrame {
   std::int64_t t_ns = 0;  ///< exposure of the left image
@@ -84,7 +84,7 @@ struct CameraDescription {
 using DecodedMessage =
     std::variant<CameraImage, LidarPacket, AttitudeSample, PositionSample, HeightSample, CameraDescription>;
 
-/// What a log delivers: as decoded, with the two eyes paired.
+/// What a log delivers: as decoded, with the two cameras paired.
 using LogMessage = std::variant<StereoFrame, LidarPacket, AttitudeSample, PositionSample, HeightSample>;
 
 }  // namespace alight

@@ -156,7 +156,7 @@ void FlightLog::Impl::finish() {
   if (finished) return;
   finished = true;
   const std::int64_t unpaired = assembler.unpaired() + assembler.waiting();
-  if (unpaired > 0) summary.dropped["images without the other eye's"] = unpaired;
+  if (unpaired > 0) summary.dropped["images without the other camera's"] = unpaired;
 }
 
 FlightLog::FlightLog(const fs::path& path, const Rig& rig, const LogConfig& config)

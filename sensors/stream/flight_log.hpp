@@ -51,7 +51,7 @@ class FlightLog {
   /// @throws DataError past max_bad_message_share, or if the bag turns out damaged
   bool next(LogMessage& out);
 
-  /// When the recorder received the message that `next` returned last (the later eye of a stereo frame).
+  /// When the recorder received the message that `next` returned last (the later camera of a stereo frame).
   std::int64_t receive_ns() const;
   /// Messages of the bag consumed so far, of summary().messages; for progress bars.
   std::int64_t consumed() const;

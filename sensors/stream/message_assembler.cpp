@@ -66,7 +66,7 @@ void MessageAssembler::accept_timed(Sample sample, double timeshift_s) {
   ready_.emplace_back(std::move(sample));
 }
 
-/// The eyes are triggered together, so they are paired by the stamps as recorded, where the configuration knows of no
+/// The cameras are triggered together, so they are paired by the stamps as recorded, where the configuration knows of no
 /// difference between their clocks.
 void MessageAssembler::add_image(Sensor sensor, const Decoder& decoder, const RawMessage& raw) {
   ByteReader reader(raw);
@@ -80,7 +80,7 @@ void MessageAssembler::add_image(Sensor sensor, const Decoder& decoder, const Ra
   if (pair) accept_frame({std::move(pair->first), std::move(pair->second)});
 }
 
-/// The frame's time is the left eye's.
+/// The frame's time is the left camera's.
 void MessageAssembler::accept_frame(UndecodedFrame undecoded) {
   if (frames_seen_++ % every_nth_image_ != 0) {
     ++dropped_["images left out by every_nth_image"];

@@ -7,7 +7,7 @@
 namespace alight {
 namespace {
 
-/// Two seconds at 20 Hz: where one eye died the other's images must not fill the memory.
+/// Two seconds at 20 Hz: where one camera died the other's images must not fill the memory.
 constexpr std::size_t kMaxWaiting = 40;
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace alight {
 
 struct Decoder;
 
-/// An image of one eye as it came, not decoded yet.
+/// An image of one camera as it came, not decoded yet.
 struct UndecodedImage {
   std::int64_t t_ns = 0;
   const Decoder* decoder = nullptr;
@@ -18,13 +18,13 @@ struct UndecodedImage {
   std::int64_t receive_ns = 0;
 };
 
-/// Both eyes of one exposure, not decoded yet; without `right` of a mono rig.
+/// Both cameras of one exposure, not decoded yet; without `right` of a mono rig.
 struct UndecodedFrame {
   UndecodedImage left;
   std::optional<UndecodedImage> right;
 };
 
-/// Puts the two eyes of one exposure together, before anything is decoded. Each eye's images must come in time order; the
+/// Puts the two cameras of one exposure together, before anything is decoded. Each camera's images must come in time order; the
 /// two streams may be shifted against each other by any number of messages.
 class StereoPairer {
  public:

@@ -27,7 +27,7 @@ Vehicle standing(double drift_mps, double duration_s) {
   return Vehicle(FlightPath(start, {FlightPhase{duration_s, 0, start.velocity_mps, 0}}), 0);
 }
 
-/// One recording: the rig stands, so that each eye's image is rendered once and only its noise differs.
+/// One recording: the rig stands, so that each camera's image is rendered once and only its noise differs.
 class BoardScene {
  public:
   BoardScene(const BoardSceneConfig& config, const Rig& rig, const RectifiedRig& rectified, int index,
@@ -68,9 +68,9 @@ class BoardScene {
                                 static_cast<std::uint32_t>(message.index)));
         continue;
       }
-      write_eye(bag, message, rig_.cam0.topic, RandomStream::kLeftImage, left, T_world_camera_);
-      write_eye(bag, message, rig_.cam1->topic, RandomStream::kRightImage, right,
-                T_world_camera_ * rectified_.T_right_camera().inverse());
+      write_camera(bag, message, rig_.cam0.topic, RandomStream::kLeftImage, left, T_world_camera_);
+      write_camera(bag, message, rig_.cam1->topic, RandomStream::kRightImage, right,
+                   T_world_camera_ * rectified_.T_right_camera().inverse());
     }
     bag.commit();
   }
@@ -91,18 +91,18 @@ class BoardScene {
     return scans;
   }
 
-  View view(std::int64_t t_ns, const Eigen::Isometry3d& T_world_eye) const {
-    Eigen::Isometry3d T = T_world_eye;
+  View view(std::int64_t t_ns, const Eigen::Isometry3d& T_world_camera) const {
+    Eigen::Isometry3d T = T_world_camera;
     T.translation().y() += config_.drift_mps * to_seconds(t_ns);
     View view = renderer_.render_camera(rectified_.intrinsics, T, false);
     if (config_.lens_blur_px > 0) cv::GaussianBlur(view.image, view.image, {}, config_.lens_blur_px);
     return view;
   }
 
-  void write_eye(BagWriter& bag, const ScheduledMessage& message, const std::string& topic,
-                 RandomStream stream, const View& still, const Eigen::Isometry3d& T_world_eye) const {
+  void write_camera(BagWriter& bag, const ScheduledMessage& message, const std::string& topic,
+                    RandomStream stream, const View& still, const Eigen::Isometry3d& T_world_camera) const {
     cv::Mat image =
-        config_.drift_mps > 0 ? view(message.measured_ns, T_world_eye).image : still.image.clone();
+        config_.drift_mps > 0 ? view(message.measured_ns, T_world_camera).image : still.image.clone();
     expose(image, sensors_.camera, brightness(sensors_.camera, to_seconds(message.measured_ns)),
            CounterRandom(seed_, stream).child(static_cast<std::uint64_t>(message.index)));
     const auto sequence = static_cast<std::uint32_t>(message.index);

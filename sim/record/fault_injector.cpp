@@ -82,15 +82,15 @@ FaultFilter right_lost(std::int64_t from_ns) {
   });
 }
 
-FaultFilter eyes_swapped(std::int64_t from_ns) {
+FaultFilter cameras_swapped(std::int64_t from_ns) {
   return changed<StereoFrame>(from_ns, [](StereoFrame& frame) {
     std::swap(frame.left, frame.right);
     return true;
   });
 }
 
-/// What the eyes show is `frames` exposures old.
-FaultFilter eyes_late(std::int64_t from_ns, bool left_too, std::size_t frames) {
+/// What the cameras show is `frames` exposures old.
+FaultFilter cameras_late(std::int64_t from_ns, bool left_too, std::size_t frames) {
   return [=, before = std::deque<StereoFrame>()](TimedMessage& timed) mutable {
     auto* frame = std::get_if<StereoFrame>(&timed.message);
     if (frame == nullptr) return true;
@@ -199,11 +199,12 @@ const std::vector<Fault>& all_faults() {
       {"camera frozen", "left camera", "frozen", "degraded", camera_frozen},
       {"camera black", "left camera", "black", "degraded", camera_black},
       {"camera over-exposed", "left camera", "over-exposed", "degraded", camera_over_exposed},
-      {"right eye lost", "right camera", "lost", "degraded", right_lost},
-      {"eyes swapped", "stereo", "eyes swapped", "degraded", eyes_swapped},
-      {"right eye 0.2 s late", "stereo", "eyes misaligned", "degraded",
-       [](T t) { return eyes_late(t, false, 2); }},
-      {"both eyes 0.2 s late with stamps as if not", "", "", "", [](T t) { return eyes_late(t, true, 2); }},
+      {"right camera lost", "right camera", "lost", "degraded", right_lost},
+      {"cameras swapped", "stereo", "cameras swapped", "degraded", cameras_swapped},
+      {"right camera 0.2 s late", "stereo", "cameras misaligned", "degraded",
+       [](T t) { return cameras_late(t, false, 2); }},
+      {"both cameras 0.2 s late with stamps as if not", "", "", "",
+       [](T t) { return cameras_late(t, true, 2); }},
       {"camera clock 0.3 s ahead", "left camera", "clock jump", "degraded",
        [](T t) { return stamps_shifted<StereoFrame>(t, 0.3); }},
       {"camera clock 2 s behind", "left camera", "clock jump", "degraded",

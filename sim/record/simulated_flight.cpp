@@ -22,7 +22,7 @@ RectifiedRig flyable_rig(const Rig& rig, const std::string& file) {
   if (!rectifier.is_identity()) {
     throw ConfigError(
         file + ": its cameras are not rectified; the simulator makes ideal pinhole images, so that both " +
-        "eyes need the same intrinsics, no distortion and parallel axes");
+        "cameras need the same intrinsics, no distortion and parallel axes");
   }
   return rectifier.rig();
 }

@@ -12,7 +12,7 @@
 
 namespace alight::sim {
 
-/// The rig that the simulator flies: rectified pinhole eyes and a LiDAR.
+/// The rig that the simulator flies: rectified pinhole cameras and a LiDAR.
 /// @throws ConfigError naming `file` if the rig is mono, has no LiDAR or is not rectified
 RectifiedRig flyable_rig(const Rig& rig, const std::string& file);
 

@@ -38,7 +38,7 @@ struct Hit {
 
 /// Ray caster over one world (Embree). Const use from many threads is safe. Results do not depend on the
 /// number of threads. Shading is independent of the viewing direction (Lambert, one sun with shadows, a sky
-/// dome), so that two eyes see the same paint.
+/// dome), so that two cameras see the same paint.
 class Renderer {
  public:
   /// `world` must outlive the renderer.

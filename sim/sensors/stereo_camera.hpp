@@ -12,11 +12,11 @@
 
 namespace alight::sim {
 
-/// One exposure of both eyes.
+/// One exposure of both cameras.
 struct StereoExposure {
   cv::Mat left;  ///< CV_8UC3 BGR, with noise
   cv::Mat right;
-  cv::Mat depth_m;  ///< CV_32FC1, the left eye's true plane depth, 0 = sky; empty if not asked for
+  cv::Mat depth_m;  ///< CV_32FC1, the left camera's true plane depth, 0 = sky; empty if not asked for
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
 };
 

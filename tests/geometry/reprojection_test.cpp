@@ -45,8 +45,8 @@ TEST(ReprojectDepth, NearestSurfaceWins) {
   EXPECT_FLOAT_EQ(moved.at<float>(50, 80), 17.6F);
 }
 
-TEST(SampleView, TrueDepthReconstructsTheOtherEye) {
-  // Texture painted on the plane z = 8: both eyes see value(x, y) of the same point.
+TEST(SampleView, TrueDepthReconstructsTheOtherCamera) {
+  // Texture painted on the plane z = 8: both cameras see value(x, y) of the same point.
   const auto paint = [](const PinholeIntrinsics& k, double offset_m) {
     cv::Mat image(k.size(), CV_32FC1);
     for (int v = 0; v < image.rows; ++v) {

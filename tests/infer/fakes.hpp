@@ -42,7 +42,7 @@ inline Rig small_rig() {
   return rig;
 }
 
-/// Level ground `height_m` below the camera, covered with noise; the right eye sees it moved by the true disparity.
+/// Level ground `height_m` below the camera, covered with noise; the right camera sees it moved by the true disparity.
 class LevelWorld {
  public:
   explicit LevelWorld(double height_m, std::uint32_t seed = 3) : height_m_(height_m), random_(seed) {

@@ -86,8 +86,8 @@ TEST(TrainingLoss, WeightZeroIsNotComputed) {
   EXPECT_GT(terms.total.item<double>(), 0);
 }
 
-TEST(TrainingLoss, RightEyeLiesAtTheBaseline) {
-  // f 10 px, 0.2 m, 2 m: one pixel. The right eye sees the left image's pixel u at u - 1.
+TEST(TrainingLoss, RightCameraLiesAtTheBaseline) {
+  // f 10 px, 0.2 m, 2 m: one pixel. The right camera sees the left image's pixel u at u - 1.
   LossInputs in = random_inputs(1);
   in.prediction_m = torch::full_like(in.prediction_m, 2.0);
   in.right = torch::roll(in.left, -1, 3);

@@ -34,19 +34,19 @@ def errors_of(checkpoint):
     prior_m = altitude_planes(
         s.height_m, s.down_camera, s.intrinsics_px, height_px, width_px, config.max_depth_m
     )
-    eyes = (s.right, prior_m, s.focal_baseline_px_m)
+    cameras = (s.right, prior_m, s.focal_baseline_px_m)
     errors = {
         "prior_m": largest_error(prior_m, s.prior_m),
-        "depth_m": largest_error(net(s.left, s.sparse_m, *eyes), s.depth_m),
+        "depth_m": largest_error(net(s.left, s.sparse_m, *cameras), s.depth_m),
         "depth_without_points_m": largest_error(
-            net(s.left, torch.zeros_like(s.sparse_m), *eyes), s.depth_without_points_m
+            net(s.left, torch.zeros_like(s.sparse_m), *cameras), s.depth_without_points_m
         ),
         "depth_of_left_alone_m": largest_error(net(s.left, s.sparse_m), s.depth_of_left_alone_m),
     }
     # The comparison means something only where the network's answer depends on what it is given.
     assert largest_error(s.depth_m, s.depth_without_points_m) > 0.01
     net.train()
-    errors["depth_in_training_m"] = largest_error(net(s.left, s.sparse_m, *eyes), s.depth_in_training_m)
+    errors["depth_in_training_m"] = largest_error(net(s.left, s.sparse_m, *cameras), s.depth_in_training_m)
     fresh = DepthCompletionNet(config).state_dict()
     assert fresh.keys() == net.state_dict().keys() == torch.jit.load(str(checkpoint)).weights.keys()
     return errors

@@ -13,7 +13,7 @@ inline DepthCompletionConfig tiny_config() {
   return config;
 }
 
-/// The smallest with all that the shipped network has: both eyes, the flight's height, a layer on the inputs.
+/// The smallest with all that the shipped network has: both cameras, the flight's height, a layer on the inputs.
 inline DepthCompletionConfig tiny_shipped_config() {
   DepthCompletionConfig config = tiny_config();
   config.prior = Prior::kAltitude;
@@ -38,7 +38,7 @@ inline torch::Tensor random_sparse_m(std::int64_t batch, std::int64_t height, st
   return depth_m * (torch::rand_like(depth_m) < 0.2).to(depth_m.dtype());
 }
 
-/// Both eyes, a height and a baseline.
+/// Both cameras, a height and a baseline.
 inline SceneView random_view(std::int64_t batch, std::int64_t height, std::int64_t width) {
   SceneView view{torch::rand({batch, 3, height, width}), torch::rand({batch, 3, height, width})};
   view.prior_m = 5 + 20 * torch::rand({batch, 1, height, width});

@@ -179,7 +179,7 @@ void write_flight(const fs::path& path, const FlightOptions& options) {
   const auto write = [&](const std::string& topic, std::int64_t t_ns, const auto& message) {
     if (wanted(topic)) bag.write(topic, ros_time(t_ns), message);
   };
-  const auto write_eye = [&](const std::string& topic, std::int64_t t_ns) {
+  const auto write_camera = [&](const std::string& topic, std::int64_t t_ns) {
     const sensor_msgs::Image image = image_message(t_ns, 64, 48, "bgr8");
     if (options.compressed) return write(topic + "/compressed", t_ns, compress(image));
     write(topic, t_ns, image);
@@ -190,8 +190,8 @@ void write_flight(const fs::path& path, const FlightOptions& options) {
     if (ms % 20 == 0) write("/dji_sdk/gps_position", t_ns, fix_message(t_ns));
     if (ms % 20 == 0) write("/dji_sdk/height_above_takeoff", t_ns, float_message(10.0F));
     if (ms % 100 != 50) continue;
-    write_eye("/left", t_ns);
-    if (options.right) write_eye("/right", t_ns);
+    write_camera("/left", t_ns);
+    if (options.right) write_camera("/right", t_ns);
     write("/livox/lidar", t_ns, livox_message(t_ns - 100'000'000, 500));
   }
   bag.close();

@@ -94,7 +94,7 @@ Batch joined(const std::vector<Batch>& samples) {
 
 void bind(Binder& b, AugmentationConfig& c) {
   b.field("horizontal_flip_probability", c.horizontal_flip_probability,
-          "how often left and right are exchanged, and the eyes with them", between(0, 1));
+          "how often left and right are exchanged, and the cameras with them", between(0, 1));
   b.field("vertical_flip_probability", c.vertical_flip_probability, "how often up and down are exchanged",
           between(0, 1));
   b.field("quarter_turn_probability", c.quarter_turn_probability,

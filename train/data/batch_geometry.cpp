@@ -55,7 +55,7 @@ void drop_right(Batch& sample) {
   sample.has_right = torch::zeros_like(sample.has_right);
 }
 
-/// The points where the right eye of the rectified pair sees them, at the same plane depth.
+/// The points where the right camera of the rectified pair sees them, at the same plane depth.
 void move_points_to_right(Batch& sample) {
   const double focal_baseline_px_m =
       sample.intrinsics_px[0][0].item<double>() * sample.baseline_m[0].item<double>();
@@ -81,8 +81,8 @@ void move_points_to_right(Batch& sample) {
   sample.offset_s = moved_s;
 }
 
-/// The right eye becomes the camera; the other one then lies at -x, until the columns are mirrored.
-void swap_eyes(Batch& sample) {
+/// The right camera becomes the left one; the other one then lies at -x, until the columns are mirrored.
+void swap_cameras(Batch& sample) {
   move_points_to_right(sample);
   std::swap(sample.left, sample.right);
   torch::Tensor T_left_right = torch::eye(4);
@@ -96,7 +96,7 @@ void swap_eyes(Batch& sample) {
 
 Batch flip_horizontally(Batch sample) {
   check_one(sample);
-  if (sample.has_right[0].item<bool>()) swap_eyes(sample);
+  if (sample.has_right[0].item<bool>()) swap_cameras(sample);
   mirror(sample, 3);
   return sample;
 }

@@ -53,8 +53,9 @@ void bind(Binder& b, DensitySamplingConfig& c) {
   b.field("window_min_s", c.window_min_s, "shortest window", between(0.001, 60));
   b.field("window_max_s", c.window_max_s, "longest window", between(0.001, 60));
   b.field("no_image_probability", c.no_image_probability,
-          "how often both eyes are black, of draws with points", between(0, 1));
-  b.field("no_right_probability", c.no_right_probability, "how often the right eye is black", between(0, 1));
+          "how often both cameras are black, of draws with points", between(0, 1));
+  b.field("no_right_probability", c.no_right_probability, "how often the right camera is black",
+          between(0, 1));
   b.field("no_height_probability", c.no_height_probability, "how often the height is unknown", between(0, 1));
   b.check("window_begin_max_s", c.window_begin_max_s >= c.window_begin_min_s,
           "expected at least window_begin_min_s");

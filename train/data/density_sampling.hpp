@@ -27,8 +27,8 @@ struct DensitySamplingConfig {
   double window_begin_max_s = 0;
   double window_min_s = 0.05;
   double window_max_s = 1.0;
-  double no_image_probability = 0;   ///< both eyes; of the draws with LiDAR
-  double no_right_probability = 0;   ///< the right eye alone
+  double no_image_probability = 0;   ///< both cameras; of the draws with LiDAR
+  double no_right_probability = 0;   ///< the right camera alone
   double no_height_probability = 0;  ///< the vehicle's height
 };
 void bind(Binder& b, DensitySamplingConfig& c);

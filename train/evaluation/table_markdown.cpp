@@ -96,7 +96,8 @@ std::string to_markdown(const EvaluationReport& report) {
     text +=
         "## right image\n\nMean over the samples of the structural similarity between the right image and "
         "its "
-        "reconstruction from the left one with the completed depth, over the pixels that both eyes see.\n\n" +
+        "reconstruction from the left one with the completed depth, over the pixels that both cameras "
+        "see.\n\n" +
         grid(report, "SSIM", 4, true, [](const EvaluationCell& cell) {
           return CellText{cell.similarity.mean(), cell.at(Region::kAll).pooled().substituted() > 0};
         });

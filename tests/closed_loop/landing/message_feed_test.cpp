@@ -29,7 +29,7 @@ TEST_F(MessageFeedTest, AScanArrivesPointByPointAtItsOwnTimes) {
   EXPECT_EQ(packet.returns[1].t_ns - packet.returns[0].t_ns, 2 * sim::kLivoxShotPeriod_ns);
 }
 
-TEST_F(MessageFeedTest, TwoEyesMakeAFrameAndUnreadTopicsNothing) {
+TEST_F(MessageFeedTest, TwoCamerasMakeAFrameAndUnreadTopicsNothing) {
   const cv::Mat grey(400, 640, CV_8UC3, cv::Scalar::all(120));
   const sim::RecordedMessage left{rig_.cam0.topic + "/compressed", kStamp_ns,
                                   sim::jpeg_message(grey, 90, "l", kStamp_ns, 0)};

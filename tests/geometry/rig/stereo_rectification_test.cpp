@@ -104,7 +104,7 @@ TEST(StereoRectifier, MonoRigIsOnlyUndistorted) {
   EXPECT_TRUE(rectifier.rig().T_camera_lidar.isApprox(rig.lidar0->T_camera_lidar, 0));
 }
 
-TEST(StereoRectifier, SwappedEyesAndOddPairsAreRefused) {
+TEST(StereoRectifier, SwappedCamerasAndOddPairsAreRefused) {
   Rig rig = make_rig(DistortionModel::kRadtan, {0, 0, 0, 0}, {0, 0, 0, 0});
   rig.T_cam1_cam0.translation().x() *= -1;
   EXPECT_THROW(StereoRectifier{rig}, ConfigError);

@@ -45,7 +45,7 @@ TEST_P(DepthEngineFaultModes, WithoutLidarStereoAloneDecides) {
   }
 }
 
-TEST_P(DepthEngineFaultModes, WithoutTheRightEyeTheHoldoutDecides) {
+TEST_P(DepthEngineFaultModes, WithoutTheRightCameraTheHoldoutDecides) {
   LevelWorld world(kHeight_m);
   FlightPlan plan;
   plan.right = false;

@@ -32,7 +32,7 @@ cv::Mat view(double x_px, double y_px) {
 }
 
 std::string fault_of(const cv::Mat& left, const cv::Mat& right, double distance_m = kDistance_m) {
-  EyeAlignment alignment({}, rig());
+  CameraAlignment alignment({}, rig());
   for (int i = 0; i < 3; ++i) alignment.add(to_nanoseconds(0.1 * i), left, right, distance_m);
   std::vector<HealthFinding> findings;
   alignment.report(findings);
@@ -40,28 +40,28 @@ std::string fault_of(const cv::Mat& left, const cv::Mat& right, double distance_
   return findings.empty() ? "" : findings.front().fault;
 }
 
-TEST(EyeShift, IsMinusTheDisparity) {
-  const EyeShift shift = eye_shift(view(0, 0), view(kDisparity_px, 0), 200);
+TEST(StereoShift, IsMinusTheDisparity) {
+  const StereoShift shift = stereo_shift(view(0, 0), view(kDisparity_px, 0), 200);
   EXPECT_NEAR(shift.shift_px.x, -kDisparity_px, 0.1);
   EXPECT_NEAR(shift.shift_px.y, 0, 0.1);
   EXPECT_GT(shift.response, 0.5);
 }
 
-TEST(EyeAlignment, TellsSwappedAndShiftedEyesFromHealthyOnes) {
+TEST(CameraAlignment, TellsSwappedAndShiftedCamerasFromHealthyOnes) {
   EXPECT_EQ(fault_of(view(0, 0), view(kDisparity_px, 0)), "");
-  EXPECT_EQ(fault_of(view(kDisparity_px, 0), view(0, 0)), "eyes swapped");
-  // The right eye 50 ms late at 3 m/s forward: 440 px * 0.15 m / 16 m.
-  EXPECT_EQ(fault_of(view(0, 0), view(kDisparity_px, 4.1)), "eyes misaligned");
+  EXPECT_EQ(fault_of(view(kDisparity_px, 0), view(0, 0)), "cameras swapped");
+  // The right camera 50 ms late at 3 m/s forward: 440 px * 0.15 m / 16 m.
+  EXPECT_EQ(fault_of(view(0, 0), view(kDisparity_px, 4.1)), "cameras misaligned");
 }
 
-TEST(EyeAlignment, SaysNothingOfSwappedEyesWhereThereIsNoDisparity) {
+TEST(CameraAlignment, SaysNothingOfSwappedCamerasWhereThereIsNoDisparity) {
   EXPECT_EQ(fault_of(view(0.3, 0), view(0, 0), 440 * 0.08 / 0.3), "");
 }
 
-TEST(EyeAlignment, SaysNothingWithoutTextureOrDistance) {
+TEST(CameraAlignment, SaysNothingWithoutTextureOrDistance) {
   const cv::Mat grey(240, 320, CV_8UC1, cv::Scalar(90));
   EXPECT_EQ(fault_of(grey, grey), "");
-  EyeAlignment alignment({}, rig());
+  CameraAlignment alignment({}, rig());
   for (int i = 0; i < 3; ++i) alignment.add(to_nanoseconds(0.1 * i), view(0, 0), view(9, 9), std::nullopt);
   EXPECT_TRUE(alignment.usable());
 }

@@ -105,7 +105,7 @@ TEST(HealthMonitor, SilenceOfAllIsSeenByWhoeverHasAClock) {
   EXPECT_EQ(monitor.report().state, HealthState::kOk);
 }
 
-TEST(HealthMonitor, ABlackLeftEyeLeavesFramesWithoutImages) {
+TEST(HealthMonitor, ABlackLeftCameraLeavesFramesWithoutImages) {
   auto messages = flight();
   for (LogMessage& message : messages) {
     auto* frame = std::get_if<StereoFrame>(&message);

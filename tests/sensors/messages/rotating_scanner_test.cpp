@@ -86,7 +86,7 @@ class RotatingScanner : public ::testing::Test {
  protected:
   RotatingScanner() : rig_(load_rig(fs::path(ALIGHT_SOURCE_DIR) / "configs" / "rigs" / "kitti.yaml")) {
     T_imu_lidar_ = rig_.cam0.T_camera_imu->inverse() * rig_.lidar0->T_camera_lidar;
-    rig_.cam1.reset();  // one eye is enough here
+    rig_.cam1.reset();  // one camera is enough here
     rig_.lidar0->timeshift_s = 0;
   }
 

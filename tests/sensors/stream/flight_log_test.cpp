@@ -65,7 +65,7 @@ TEST_F(FlightLogTest, StreamsEverythingInTheOrderOfRecording) {
   EXPECT_EQ(frames[0].right.size(), cv::Size(64, 48));
   EXPECT_EQ(log.consumed(), log.summary().messages);
   EXPECT_EQ(log.summary().topic_messages.at("/left"), 30);
-  EXPECT_TRUE(log.summary().dropped.count("images without the other eye's") == 0);
+  EXPECT_TRUE(log.summary().dropped.count("images without the other camera's") == 0);
 }
 
 TEST_F(FlightLogTest, FindsCompressedTopics) {
@@ -121,7 +121,7 @@ TEST_F(FlightLogTest, TheReceiveTimeCountsWhereTheRigSaysSo) {
   EXPECT_EQ(all_of<StereoFrame>(messages)[0].t_ns, kStart_ns + 50'000'000);
 }
 
-TEST_F(FlightLogTest, EyesWithClocksApartPairByTheConfiguredLead) {
+TEST_F(FlightLogTest, CamerasWithClocksApartPairByTheConfiguredLead) {
   FlightOptions options;
   options.left_out = {"/right"};
   const fs::path path = bag_with(options, [](rosbag::Bag& file) {
@@ -166,14 +166,14 @@ TEST_F(FlightLogTest, OneTopicMayBeAttitudeAndPosition) {
               AllOf(HasSubstr("/tf"), HasSubstr("log.tf_body_frame")));
 }
 
-TEST_F(FlightLogTest, CountsImagesWithoutTheOtherEye) {
+TEST_F(FlightLogTest, CountsImagesWithoutTheOtherCamera) {
   const fs::path path = bag_with({}, [](rosbag::Bag& file) {
     const std::int64_t t_ns = kStart_ns + 555'000'000;
     file.write("/left", ros_time(t_ns), image_message(t_ns, 64, 48, "bgr8"));
   });
   FlightLog log(path, small_rig(), {});
   EXPECT_EQ(all_of<StereoFrame>(read_all(log)).size(), 30u);
-  EXPECT_EQ(log.summary().dropped.at("images without the other eye's"), 1);
+  EXPECT_EQ(log.summary().dropped.at("images without the other camera's"), 1);
 }
 
 TEST_F(FlightLogTest, AttitudeMayComeFromTheImu) {

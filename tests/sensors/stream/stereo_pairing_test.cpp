@@ -39,7 +39,7 @@ TEST(StereoPairer, CountsWhatHasNoPartner) {
   EXPECT_EQ(pairer.waiting(), 0);
 }
 
-TEST(StereoPairer, ADeadEyeDoesNotFillTheMemory) {
+TEST(StereoPairer, ADeadCameraDoesNotFillTheMemory) {
   StereoPairer pairer(10);
   for (int i = 0; i < 1000; ++i) pairer.add_left(image_at(i * 100));
   EXPECT_LE(pairer.waiting(), 100);

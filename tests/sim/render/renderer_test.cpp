@@ -24,7 +24,7 @@ double grey_at(const cv::Mat& image, double u_px, double v_px) {
   return (bgr[0] + bgr[1] + bgr[2]) / 3.0;
 }
 
-/// Mean absolute grey difference of the right eye and its reconstruction from the left eye with a depth map.
+/// Mean absolute grey difference of the right camera and its reconstruction from the left camera with a depth map.
 double reconstruction_error(const cv::Mat& left, const cv::Mat& right, const cv::Mat& depth_right_m) {
   const Eigen::Isometry3d T_left_right(Eigen::Translation3d(0.08, 0, 0));
   const SampledView seen = sample_view(left, intrinsics(), depth_right_m, intrinsics(), T_left_right);
@@ -107,7 +107,7 @@ TEST(Renderer, ShadowOfAPoleFallsAwayFromTheSun) {
   EXPECT_GT(grey(-1.2, 0.5), 0.85 * lit);
 }
 
-TEST(Renderer, BothEyesSeeTheSamePaint) {
+TEST(Renderer, BothCamerasSeeTheSamePaint) {
   for (const Look look : {Look::kVillage, Look::kRocky}) {
     WorldConfig config;
     config.look = look;

@@ -227,12 +227,12 @@ TEST(CameraNoise, HasTheConfiguredVariance) {
   }
 }
 
-TEST(CameraNoise, DependsOnFrameAndEyeAlone) {
+TEST(CameraNoise, DependsOnFrameAndCameraAlone) {
   const CameraConfig config;
   const cv::Mat grey(20, 30, CV_8UC3, cv::Scalar::all(90));
-  const auto exposed = [&](RandomStream eye, std::uint64_t frame) {
+  const auto exposed = [&](RandomStream camera, std::uint64_t frame) {
     cv::Mat image = grey.clone();
-    expose(image, config, 1.0, CounterRandom(3, eye).child(frame));
+    expose(image, config, 1.0, CounterRandom(3, camera).child(frame));
     return image;
   };
   const cv::Mat image = exposed(RandomStream::kLeftImage, 4);
@@ -249,7 +249,7 @@ TEST(CameraNoise, OffLeavesTheImageAlone) {
   EXPECT_EQ(cv::norm(image, before, cv::NORM_L1), 0);
 }
 
-TEST(StereoCamera, EyesAreOneBaselineApart) {
+TEST(StereoCamera, CamerasAreOneBaselineApart) {
   const World world = flat_world(Material::kPaving, false);
   const Renderer renderer(world);
   const Vehicle vehicle = hovering(8.8);  // camera 8.8 m - 0.12 m up: a disparity of 4 px

@@ -26,7 +26,7 @@ GroundSceneOptions wide() {
   return o;
 }
 
-GroundSceneOptions one_eyed() {
+GroundSceneOptions mono() {
   GroundSceneOptions o = wide();
   o.has_right = false;
   return o;
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, BatchGeometryMoves,
     testing::Values(Move{"horizontal", wide(), flip_horizontally,
                          [](const GroundScene& s) { return s.right_depth_m.flip(3); }},
-                    Move{"horizontal_one_eyed", one_eyed(), flip_horizontally,
+                    Move{"horizontal_mono", mono(), flip_horizontally,
                          [](const GroundScene& s) { return s.left_depth_m.flip(3); }},
                     Move{"vertical", wide(), flip_vertically,
                          [](const GroundScene& s) { return s.left_depth_m.flip(2); }},
@@ -122,23 +122,23 @@ INSTANTIATE_TEST_SUITE_P(
                          [](const GroundScene& s) { return turned(s.left_depth_m, 3); }}),
     [](const auto& move) { return std::string(move.param.name); });
 
-TEST(BatchGeometry, HorizontalFlipSwapsTheEyes) {
+TEST(BatchGeometry, HorizontalFlipSwapsTheCameras) {
   const GroundScene scene = ground_scene(wide());
   const Batch flipped = flip_horizontally(scene.batch);
   EXPECT_TRUE(torch::equal(flipped.left, scene.batch.right.flip(3)));
   EXPECT_TRUE(torch::equal(flipped.right, scene.batch.left.flip(3)));
   EXPECT_TRUE(torch::equal(flipped.previous, scene.batch.previous.flip(3)));
 
-  // Mirroring both eyes without the swap leaves the second one on the wrong side.
+  // Mirroring both cameras without the swap leaves the second one on the wrong side.
   Batch wrong = flipped;
   std::swap(wrong.left, wrong.right);
   EXPECT_GT(photometric(wrong, scene.left_depth_m.flip(3), false, false, true), 0.02);
 
-  // As do poses that are mirrored, but still those of the old eye.
-  Batch one_eyed = scene.batch;
-  one_eyed.has_right = torch::zeros_like(one_eyed.has_right);
+  // As do poses that are mirrored, but still those of the old camera.
+  Batch mono = scene.batch;
+  mono.has_right = torch::zeros_like(mono.has_right);
   wrong = flipped;
-  wrong.T_previous_camera = flip_horizontally(one_eyed).T_previous_camera;
+  wrong.T_previous_camera = flip_horizontally(mono).T_previous_camera;
   EXPECT_GT(photometric(wrong, scene.right_depth_m.flip(3), true, false, false), 0.02);
 }
 
@@ -192,7 +192,7 @@ TEST(BatchGeometry, VerticalFlipTwiceIsTheOriginalBitForBit) {
   EXPECT_TRUE(torch::equal(twice.height_m, b.height_m));
 }
 
-TEST(BatchGeometry, HorizontalFlipTwiceLosesOnlyPointsThatOneEyeSees) {
+TEST(BatchGeometry, HorizontalFlipTwiceLosesOnlyPointsThatOneCameraSees) {
   const Batch b = ground_scene(wide()).batch;
   const Batch twice = flip_horizontally(flip_horizontally(b));
   expect_same_views(twice, b);
@@ -215,7 +215,7 @@ TEST(BatchGeometry, FourQuartersAreTheOriginal) {
   }
 }
 
-TEST(BatchGeometry, QuarterTurnsGoWithoutTheRightEye) {
+TEST(BatchGeometry, QuarterTurnsGoWithoutTheRightCamera) {
   const Batch b = ground_scene().batch;
   for (const int odd : {1, 3}) {
     const Batch turned = turn(b, odd);

@@ -119,7 +119,7 @@ TEST(DensitySampling, MixedFeedsSharesAndWindows) {
   EXPECT_NEAR(windows / 100.0, 0.5, 0.15);
 }
 
-TEST(DensitySampling, RightEyeAndHeightAreDroppedAsOftenAsSaid) {
+TEST(DensitySampling, RightCameraAndHeightAreDroppedAsOftenAsSaid) {
   DensitySamplingConfig config;
   config.draw = DensityDraw::kSample;
   config.no_right_probability = 0.3;

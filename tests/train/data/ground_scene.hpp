@@ -20,7 +20,7 @@ struct GroundSceneOptions {
   std::int64_t height_px = 44;
   std::int64_t width_px = 44;
   bool has_right = true;
-  bool level_camera = false;  ///< looks straight down: then all pixels move by exactly 3 between the eyes
+  bool level_camera = false;  ///< looks straight down: then all pixels move by exactly 3 between the cameras
 };
 
 /// T_view_left of a small turn about all axes and a move.

@@ -64,7 +64,7 @@ TrainConfig tiny_run_config(const fs::path& dataset) {
   c.split.gap_s = 0;
   c.model = tiny_config();
   c.model.stem = Stem::kFull;  // four numbers a channel, the other stem's coarsest map, magnify rounding
-  // Turned samples lose their right eye, and then some have no pixel that counts for the photometric loss.
+  // Turned samples lose their right camera, and then some have no pixel that counts for the photometric loss.
   c.augmentation.horizontal_flip_probability = c.augmentation.vertical_flip_probability = 0.5;
   c.augmentation.jitter_probability = 0.5;
   // Adam makes whole steps of gradients that are mere rounding; short ones keep what that changes apart from mistakes.

@@ -19,7 +19,7 @@ LoadedNetwork small_network(DepthKind kind) {
 }
 
 /// The network of a perspective model reads and predicts ranges; the method speaks plane depth. It shows the network
-/// both eyes, and what a camera that looks straight down sees of level ground: the height, everywhere.
+/// both cameras, and what a camera that looks straight down sees of level ground: the height, everywhere.
 TEST(NetworkMethod, PredictsPlaneDepthWhateverTheNetworkLearned) {
   DepthSample sample = test::scene_sample(0);
   sample.right = test::random_image(48, 48);
