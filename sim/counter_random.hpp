@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "foundation/split_mix.hpp"
 #include "sim/random.hpp"
 
 namespace alight::sim {
@@ -40,7 +41,7 @@ enum class RandomStream : std::uint64_t {
 class CounterRandom {
  public:
   CounterRandom(std::uint64_t seed, RandomStream stream)
-      : key_(mix(seed + 0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(stream))) {}
+      : key_(split_mix(seed, static_cast<std::uint64_t>(stream) - 1)) {}
 
   /// The independent sequence number `index` of this stream, such as one a frame.
   CounterRandom child(std::uint64_t index) const {
@@ -49,9 +50,7 @@ class CounterRandom {
     return random;
   }
 
-  std::uint64_t bits(std::uint64_t counter) const {
-    return mix(key_ + 0x9E3779B97F4A7C15ULL * (counter + 1));
-  }
+  std::uint64_t bits(std::uint64_t counter) const { return split_mix(key_, counter); }
 
   /// Uniform in [0, 1).
   double uniform(std::uint64_t counter) const { return static_cast<double>(bits(counter) >> 11) * 0x1p-53; }
@@ -71,13 +70,6 @@ class CounterRandom {
   }
 
  private:
-  /// The finalizer of splitmix64.
-  static std::uint64_t mix(std::uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-    return x ^ (x >> 31);
-  }
-
   std::uint64_t key_;
 };
 
