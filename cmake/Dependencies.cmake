@@ -6,6 +6,8 @@ if(ALIGHT_WITH_GROUND)
     find_package(embree 3 REQUIRED)
   endif()
   alight_imported(embree libembree-dev INCLUDES ${EMBREE_INCLUDE_DIRS} LINK ${EMBREE_LIBRARY})
+  # Not its CMake package, which links BLAS, too: OpenCV would call another one.
+  alight_imported(ceres libceres-dev HEADERS ceres/ceres.h LIBRARIES ceres glog)
 endif()
 if(ALIGHT_WITH_TORCH AND ALIGHT_WITH_GROUND)
   alight_package(Protobuf libprotobuf-dev)

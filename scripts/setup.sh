@@ -13,7 +13,7 @@ packages=(
   # libraries
   libtorch-dev libgloo-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libfmt-dev libspdlog-dev
   libcli11-dev nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
-  protobuf-compiler libboost-dev libturbojpeg0-dev libxxhash-dev
+  libceres-dev protobuf-compiler libboost-dev libturbojpeg0-dev libxxhash-dev
   # ROS 1 logs
   librosbag-storage-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libstd-msgs-dev
   # ROS 1 node (its build; a machine that has these but no master skips the node's test)

@@ -46,12 +46,14 @@ std::vector<Advice> advise_poses(const Chessboard& board, const std::vector<Boar
   constexpr std::size_t kShown = 3;
   if (views.empty()) return {};
   // The LiDAR sees a new board as well as it did on average, and the boards so far tell which angles it can reach.
-  LidarBoard::Information information = LidarBoard::Information::Zero();
+  BoardView next;
+  next.pixels.assign(static_cast<std::size_t>(board.corners()),
+                     {0, 0});  // what they tell does not depend on them
   double reach = 1;
   double near_m = 1e9;
   double far_m = 0;
   for (const BoardView& view : views) {
-    information += view.lidar.information / static_cast<double>(views.size());
+    next.lidar.covariance += view.lidar.covariance / static_cast<double>(views.size());
     const Vector3d centre = view.lidar.T_lidar_board * board.centre();
     reach = std::min(reach, centre.normalized().x());
     near_m = std::min(near_m, centre.norm());
@@ -69,11 +71,11 @@ std::vector<Advice> advise_poses(const Chessboard& board, const std::vector<Boar
         for (const Tilt& tilt : kTilts) {
           Eigen::Isometry3d T_camera_board(Eigen::Translation3d{centre});
           T_camera_board.rotate(Eigen::AngleAxisd(to_radians(tilt.deg), tilt.axis));
-          const Eigen::Isometry3d T_lidar_board =
+          next.lidar.T_lidar_board =
               extrinsics.T_camera_lidar.inverse() * T_camera_board * Eigen::Translation3d(-board.centre());
-          const Matrix6d after = with_board(extrinsics.covariance,
-                                            board_information(board, extrinsics.T_camera_lidar, T_lidar_board,
-                                                              information, intrinsics, noise));
+          const Matrix6d after =
+              with_board(extrinsics.covariance,
+                         board_information(board, next, extrinsics.T_camera_lidar, intrinsics, noise));
           const Vector6d sigma = after.diagonal().cwiseSqrt();
           const std::string text = fmt::format("{:.1f} m away in the {} {} of the image, {}", distance_m,
                                                kRows[row], kColumns[column], tilt.words);

@@ -16,6 +16,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMinPoints = 400;
+constexpr const char* kNotFixed =
+    "the LiDAR points do not fix where the board stands: record longer, with the board nearer";
 
 /// Rigid motion that carries the board's corners onto points (Umeyama without scale), and the scale left over.
 Eigen::Isometry3d align_board(const Chessboard& board, const std::vector<Vector3d>& corners_lidar,
@@ -45,21 +47,19 @@ void start_levels(const std::vector<Beam>& beams, PrintState& state) {
 LidarBoardFit fit(const std::vector<Beam>& beams, const Chessboard& board, bool dark, PrintState state) {
   constexpr int kRounds = 3;
   PrintFit print(beams, board, dark);
-  NormalEquations end;
   for (int round = 0; round < kRounds; ++round) {
     print.select(state);
     if (print.used() < kMinPoints)
       return {std::nullopt, "only " + std::to_string(print.used()) + " LiDAR points on the board"};
     print.measure_noise(state);
-    end = print.minimise(state);
+    if (!print.refine(state)) return {std::nullopt, kNotFixed};
   }
+  const std::optional<LidarBoard::Covariance> covariance = print.covariance(state);
+  if (!covariance) return {std::nullopt, kNotFixed};
   LidarBoard result;
   result.T_lidar_board = state.T_lidar_board;
   result.range_offset_m = state.range_offset_m;
-  // Levels and blur are of no use to anyone else: marginalised out.
-  const Eigen::Matrix<double, 4, 4> nuisance = end.H.bottomRightCorner<4, 4>();
-  const Eigen::Matrix<double, 7, 4> shared = end.H.topRightCorner<7, 4>();
-  result.information = end.H.topLeftCorner<7, 7>() - shared * nuisance.ldlt().solve(shared.transpose());
+  result.covariance = *covariance;
   print.measure_noise(state);
   result.range_noise_m = print.range_noise_m();
   result.reflectivity_noise = print.level_noise();

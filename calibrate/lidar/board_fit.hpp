@@ -15,14 +15,14 @@ namespace alight {
 
 /// Where a board stands in the LiDAR's frame, from all points on it at once.
 struct LidarBoard {
-  using Information = Eigen::Matrix<double, 7, 7>;
+  using Covariance = Eigen::Matrix<double, 7, 7>;
 
   Eigen::Isometry3d T_lidar_board = Eigen::Isometry3d::Identity();
   /// How much farther than the truth the LiDAR measures, metres: the print's size gives the true distance.
   double range_offset_m = 0;
-  /// Inverse covariance of (translation [m], rotation vector [rad], both in the board's frame, range offset [m]). The
-  /// offset and the distance lean on each other; with the offset known the distance is sharp.
-  Information information = Information::Zero();
+  /// Of (translation [m], rotation vector [rad], both in the board's frame, range offset [m]). The offset and the
+  /// distance lean on each other; with the offset known the distance is sharp.
+  Covariance covariance = Covariance::Zero();
   double range_noise_m = 0;       ///< 1 sigma of the points about the plane, along their rays
   double reflectivity_noise = 0;  ///< 1 sigma about the model, levels
   double blur_x_m = 0;  ///< 1 sigma of the printed edges' blur (the beam's footprint) along the board's axes

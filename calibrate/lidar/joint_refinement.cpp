@@ -1,152 +1,152 @@
 #include "calibrate/lidar/joint_refinement.hpp"
 
 #include <cmath>
+#include <deque>
+#include <limits>
 
 #include <Eigen/Dense>
+#include <ceres/autodiff_cost_function.h>
+#include <ceres/problem.h>
+#include <ceres/rotation.h>
 
-#include "calibrate/fitting/levenberg_marquardt.hpp"
+#include "calibrate/fitting/least_squares.hpp"
+#include "calibrate/fitting/pose_block.hpp"
 
 namespace alight {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Jacobian2x6 = Eigen::Matrix<double, 2, 6>;
-constexpr int kShared = 7;  // mounting, range offset
-constexpr int kPerBoard = 7;
 
-struct JointState {
-  Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();
-  double range_offset_m = 0;
-  std::vector<Eigen::Isometry3d> T_lidar_board;
-  std::vector<double> board_offset_m;
-};
-
-JointState moved(const JointState& state, const Eigen::VectorXd& step) {
-  JointState result = state;
-  result.T_camera_lidar.linear() = rotation_exp(step.segment<3>(3)) * state.T_camera_lidar.linear();
-  result.T_camera_lidar.translation() += step.head<3>();
-  result.range_offset_m += step[6];
-  for (std::size_t i = 0; i < state.T_lidar_board.size(); ++i) {
-    const auto at = kShared + kPerBoard * static_cast<Eigen::Index>(i);
-    result.T_lidar_board[i] = state.T_lidar_board[i] * small_motion(step.segment<6>(at));
-    result.board_offset_m[i] += step[at + 6];
-  }
-  return result;
-}
-
-/// Pixel of a board's corner with its derivatives by mounting and board pose.
-struct Projected {
+/// Reprojection error of a corner over the camera's noise.
+struct CornerResidual {
+  Vector3d p_board;
   Vector2d pixel;
-  Jacobian2x6 by_mounting;
-  Jacobian2x6 by_board;
+  const PinholeIntrinsics& intrinsics;
+  double noise_px;
+
+  template <class T>
+  bool operator()(const T* T_camera_lidar, const T* T_lidar_board, T* residual) const {
+    const Eigen::Matrix<T, 3, 1> p =
+        PoseView<T>(T_camera_lidar) * (PoseView<T>(T_lidar_board) * p_board.cast<T>());
+    residual[0] = (intrinsics.fx_px * p.x() / p.z() + intrinsics.cx_px - pixel.x()) / noise_px;
+    residual[1] = (intrinsics.fy_px * p.y() / p.z() + intrinsics.cy_px - pixel.y()) / noise_px;
+    return true;
+  }
 };
 
-Projected project(const Vector3d& p_board, const Eigen::Isometry3d& T_camera_lidar,
-                  const Eigen::Isometry3d& T_lidar_board, const PinholeIntrinsics& intrinsics) {
-  const Vector3d p = T_camera_lidar * (T_lidar_board * p_board);
-  Eigen::Matrix<double, 2, 3> J;
-  J << intrinsics.fx_px / p.z(), 0, -intrinsics.fx_px * p.x() / (p.z() * p.z()), 0, intrinsics.fy_px / p.z(),
-      -intrinsics.fy_px * p.y() / (p.z() * p.z());
-  Projected result;
-  result.pixel = intrinsics.project(p);
-  result.by_mounting << J, -J * skew(p - T_camera_lidar.translation());
-  const Eigen::Matrix3d R = (T_camera_lidar * T_lidar_board).linear();
-  result.by_board << J * R, -J * R * skew(p_board);
-  return result;
-}
+/// A board against what the LiDAR saw of it: motion in its own frame and range offset, whitened.
+struct LidarResidual {
+  Eigen::Isometry3d T_seen_lidar;
+  double range_offset_m;
+  LidarBoard::Covariance whitening;
+
+  template <class T>
+  bool operator()(const T* T_lidar_board, const T* board_offset_m, T* residual) const {
+    const PoseView<T> pose(T_lidar_board);
+    const Eigen::Quaternion<T> turn = Eigen::Quaterniond(T_seen_lidar.linear()).cast<T>() * pose.rotation;
+    const std::array<T, 4> wxyz = {turn.w(), turn.x(), turn.y(), turn.z()};
+    Eigen::Matrix<T, 7, 1> off;
+    off.template head<3>() = T_seen_lidar.linear().cast<T>() * pose.translation + T_seen_lidar.translation();
+    ceres::QuaternionToAngleAxis(wxyz.data(), off.data() + 3);
+    off[6] = *board_offset_m - range_offset_m;
+    Eigen::Map<Eigen::Matrix<T, 7, 1>> whitened(residual);
+    whitened = whitening.cast<T>() * off;
+    return true;
+  }
+};
+
+/// The LiDAR's range offset against none, and a board's own against the LiDAR's, over what is expected.
+struct OffsetResidual {
+  double sigma_m;
+
+  template <class T>
+  bool operator()(const T* offset_m, T* residual) const {
+    *residual = *offset_m / sigma_m;
+    return true;
+  }
+  template <class T>
+  bool operator()(const T* board_offset_m, const T* offset_m, T* residual) const {
+    *residual = (*board_offset_m - *offset_m) / sigma_m;
+    return true;
+  }
+};
 
 /// The LiDAR's view of a board once its directions may be wrong by a small turn about the sensor.
-LidarBoard::Information with_angle_bias(const LidarBoard::Information& information,
-                                        const Eigen::Isometry3d& T_lidar_board, double angle_bias_rad) {
+LidarBoard::Covariance with_angle_bias(const LidarBoard& seen, double angle_bias_rad) {
   // A turn w about the LiDAR moves the board, in its own frame, by R^T (w x t) and turns it by R^T w.
-  const Eigen::Matrix3d R = T_lidar_board.linear();
+  const Eigen::Matrix3d R = seen.T_lidar_board.linear();
   Eigen::Matrix<double, 7, 3> by_turn = Eigen::Matrix<double, 7, 3>::Zero();
-  by_turn.topRows<3>() = -R.transpose() * skew(T_lidar_board.translation());
+  by_turn.topRows<3>() = -R.transpose() * skew(seen.T_lidar_board.translation());
   by_turn.middleRows<3>(3) = R.transpose();
-  // Woodbury: (C + s^2 G G^T)^-1 without inverting the information, one direction of which is weak.
-  const Eigen::Matrix3d inner = Eigen::Matrix3d::Identity() / (angle_bias_rad * angle_bias_rad) +
-                                by_turn.transpose() * information * by_turn;
-  return information - information * by_turn * inner.ldlt().solve(by_turn.transpose() * information);
+  return seen.covariance + angle_bias_rad * angle_bias_rad * by_turn * by_turn.transpose();
 }
 
-class Problem {
+/// The least-squares problem over the extrinsics, the LiDAR's range offset, and each board's pose and own offset.
+class JointProblem {
  public:
-  Problem(const Chessboard& board, const std::vector<JointBoard>& boards, const PinholeIntrinsics& intrinsics,
-          const JointNoise& noise)
-      : board_(board), boards_(boards), intrinsics_(intrinsics), noise_(noise) {
-    for (const JointBoard& b : boards)
-      information_.push_back(
-          with_angle_bias(b.view->lidar.information, b.view->lidar.T_lidar_board, noise.angle_bias_rad));
+  JointProblem(const Chessboard& board, const PinholeIntrinsics& intrinsics, const JointNoise& noise,
+               const Eigen::Isometry3d& T_camera_lidar)
+      : board_(board), intrinsics_(intrinsics), noise_(noise), T_camera_lidar_(pose_block(T_camera_lidar)) {
+    problem_.AddParameterBlock(T_camera_lidar_.data(), 7, new PoseManifold);
+    problem_.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<OffsetResidual, 1, 1>(new OffsetResidual{noise.range_bias_m}),
+        nullptr, &range_offset_m_);
   }
 
-  NormalEquations linearise(const JointState& state) const {
-    const auto size = kShared + kPerBoard * static_cast<Eigen::Index>(boards_.size());
-    NormalEquations out{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0};
-    add_offset_prior(state, out);
-    for (std::size_t i = 0; i < boards_.size(); ++i) {
-      add_corners(state, i, out);
-      add_lidar(state, i, out);
+  /// @param turn maps the camera's order of corners to the LiDAR's
+  void add(const BoardView& view, const Eigen::Isometry3d& turn) {
+    const LidarBoard& seen = view.lidar;
+    BoardBlocks& own = boards_.emplace_back(BoardBlocks{pose_block(seen.T_lidar_board), seen.range_offset_m});
+    problem_.AddParameterBlock(own.T_lidar_board.data(), 7, new PoseManifold);
+    for (int k = 0; k < board_.corners(); ++k) {
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<CornerResidual, 2, 7, 7>(new CornerResidual{
+                                    turn * board_.corner(k), view.pixels[static_cast<std::size_t>(k)],
+                                    intrinsics_, noise_.camera_px}),
+                                nullptr, T_camera_lidar_.data(), own.T_lidar_board.data());
     }
-    return out;
+    const Eigen::LLT<LidarBoard::Covariance> root(with_angle_bias(seen, noise_.angle_bias_rad));
+    problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<LidarResidual, 7, 7, 1>(new LidarResidual{
+                                  seen.T_lidar_board.inverse(), seen.range_offset_m,
+                                  root.matrixL().solve(LidarBoard::Covariance::Identity())}),
+                              nullptr, own.T_lidar_board.data(), &own.range_offset_m);
+    problem_.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<OffsetResidual, 1, 1, 1>(new OffsetResidual{noise_.range_bias_m}),
+        nullptr, &own.range_offset_m, &range_offset_m_);
   }
-  double cost(const JointState& state) const { return linearise(state).cost; }
+
+  /// @returns 1/2 chi square; not finite where the start does not have one
+  double minimise() { return alight::minimise(problem_).value_or(std::numeric_limits<double>::infinity()); }
+  /// Of (translation, rotation vector, range offset); infinite variances where the boards leave a direction free.
+  LidarBoard::Covariance covariance() {
+    if (const auto found = alight::covariance(problem_, {T_camera_lidar_.data(), &range_offset_m_}))
+      return *found;
+    LidarBoard::Covariance unknown = LidarBoard::Covariance::Zero();
+    unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
+    return unknown;
+  }
+
+  Eigen::Isometry3d T_camera_lidar() const { return transform_of(T_camera_lidar_); }
+  double range_offset_m() const { return range_offset_m_; }
 
  private:
-  void add_offset_prior(const JointState& state, NormalEquations& out) const {
-    const double weight = 1 / (noise_.range_bias_m * noise_.range_bias_m);
-    out.H(6, 6) += weight;
-    out.g[6] += weight * state.range_offset_m;
-    out.cost += 0.5 * weight * state.range_offset_m * state.range_offset_m;
-  }
-
-  void add_corners(const JointState& state, std::size_t i, NormalEquations& out) const {
-    const auto at = kShared + kPerBoard * static_cast<Eigen::Index>(i);
-    for (int k = 0; k < board_.corners(); ++k) {
-      const Projected p = project(boards_[i].turn * board_.corner(k), state.T_camera_lidar,
-                                  state.T_lidar_board[i], intrinsics_);
-      const Vector2d r = (p.pixel - boards_[i].view->pixels[static_cast<std::size_t>(k)]) / noise_.camera_px;
-      const Jacobian2x6 Jm = p.by_mounting / noise_.camera_px;
-      const Jacobian2x6 Jb = p.by_board / noise_.camera_px;
-      out.H.topLeftCorner<6, 6>() += Jm.transpose() * Jm;
-      out.H.block<6, 6>(at, at) += Jb.transpose() * Jb;
-      out.H.block<6, 6>(0, at) += Jm.transpose() * Jb;
-      out.H.block<6, 6>(at, 0) += Jb.transpose() * Jm;
-      out.g.head<6>() += Jm.transpose() * r;
-      out.g.segment<6>(at) += Jb.transpose() * r;
-      out.cost += 0.5 * r.squaredNorm();
-    }
-  }
-
-  void add_lidar(const JointState& state, std::size_t i, NormalEquations& out) const {
-    const auto at = kShared + kPerBoard * static_cast<Eigen::Index>(i);
-    const LidarBoard& seen = boards_[i].view->lidar;
-    Eigen::Matrix<double, 7, 1> off;
-    off << motion_vector(seen.T_lidar_board.inverse() * state.T_lidar_board[i]),
-        state.board_offset_m[i] - seen.range_offset_m;
-    out.H.block<7, 7>(at, at) += information_[i];
-    out.g.segment<7>(at) += information_[i] * off;
-    out.cost += 0.5 * off.dot(information_[i] * off);
-    const double weight = 1 / (noise_.range_bias_m * noise_.range_bias_m);
-    const double own = state.board_offset_m[i] - state.range_offset_m;
-    out.H(at + 6, at + 6) += weight;
-    out.H(6, 6) += weight;
-    out.H(at + 6, 6) -= weight;
-    out.H(6, at + 6) -= weight;
-    out.g[at + 6] += weight * own;
-    out.g[6] -= weight * own;
-    out.cost += 0.5 * weight * own * own;
-  }
+  struct BoardBlocks {
+    PoseBlock T_lidar_board;
+    double range_offset_m;
+  };
 
   const Chessboard& board_;
-  const std::vector<JointBoard>& boards_;
   const PinholeIntrinsics& intrinsics_;
   JointNoise noise_;
-  std::vector<LidarBoard::Information> information_;
+  PoseBlock T_camera_lidar_;
+  double range_offset_m_ = 0;
+  std::deque<BoardBlocks> boards_;  // which stay where they are
+  ceres::Problem problem_;
 };
 
 /// Condition number once a metre and a radian are measured in what moves the image alike: the mean distance.
 double scaled_condition(const Matrix6d& covariance, double distance_m) {
+  if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
   Vector6d scale;
   scale << Vector3d::Ones(), Vector3d::Constant(distance_m);
   const Matrix6d scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
@@ -159,52 +159,35 @@ double scaled_condition(const Matrix6d& covariance, double distance_m) {
 JointResult refine_jointly(const Chessboard& board, const std::vector<JointBoard>& boards,
                            const PinholeIntrinsics& intrinsics, const JointNoise& noise,
                            const Eigen::Isometry3d& T_camera_lidar) {
-  JointState state;
-  state.T_camera_lidar = T_camera_lidar;
+  JointProblem problem(board, intrinsics, noise, T_camera_lidar);
   double distance_m = 0;
   for (const JointBoard& b : boards) {
-    state.T_lidar_board.push_back(b.view->lidar.T_lidar_board);
-    state.board_offset_m.push_back(b.view->lidar.range_offset_m);
+    problem.add(*b.view, b.turn);
     distance_m += (b.view->lidar.T_lidar_board * board.centre()).norm() / static_cast<double>(boards.size());
   }
-  const Problem problem(board, boards, intrinsics, noise);
-  const NormalEquations end = minimise(
-      state, [&](const JointState& s) { return problem.linearise(s); },
-      [&](const JointState& s) { return problem.cost(s); }, moved);
+  const double cost = problem.minimise();
+  const LidarBoard::Covariance covariance = problem.covariance();
   JointResult result;
-  result.T_camera_lidar = state.T_camera_lidar;
-  result.T_camera_lidar.linear() =
-      Eigen::Quaterniond(state.T_camera_lidar.linear()).normalized().toRotationMatrix();
-  const Eigen::MatrixXd covariance =
-      end.H.ldlt().solve(Eigen::MatrixXd::Identity(end.H.rows(), end.H.cols()));
+  result.T_camera_lidar = problem.T_camera_lidar();
   // Residuals: two a corner, seven and one a board, one offset. Parameters: seven, and seven a board.
   const double freedom = static_cast<double>(boards.size()) * (2.0 * board.corners() + 1) - 6;
-  result.excess = std::sqrt(2 * end.cost / std::max(1.0, freedom));
+  result.excess = std::sqrt(2 * cost / std::max(1.0, freedom));
   const double widen = std::max(1.0, result.excess * result.excess);
   result.covariance = widen * covariance.topLeftCorner<6, 6>();
-  result.range_offset_m = state.range_offset_m;
+  result.range_offset_m = problem.range_offset_m();
   result.range_offset_sigma_m = std::sqrt(widen * covariance(6, 6));
   result.camera_noise_px = noise.camera_px;
   result.condition = scaled_condition(result.covariance, distance_m);
   return result;
 }
 
-Matrix6d board_information(const Chessboard& board, const Eigen::Isometry3d& T_camera_lidar,
-                           const Eigen::Isometry3d& T_lidar_board, const LidarBoard::Information& information,
-                           const PinholeIntrinsics& intrinsics, const JointNoise& noise) {
-  Matrix6d mounting = Matrix6d::Zero();
-  Eigen::Matrix<double, 6, 7> cross = Eigen::Matrix<double, 6, 7>::Zero();
-  LidarBoard::Information own = with_angle_bias(information, T_lidar_board, noise.angle_bias_rad);
-  own(6, 6) += 0.5 / (noise.range_bias_m * noise.range_bias_m);  // its own offset and that of all boards
-  for (int k = 0; k < board.corners(); ++k) {
-    const Projected p = project(board.corner(k), T_camera_lidar, T_lidar_board, intrinsics);
-    const Jacobian2x6 Jm = p.by_mounting / noise.camera_px;
-    const Jacobian2x6 Jb = p.by_board / noise.camera_px;
-    mounting += Jm.transpose() * Jm;
-    cross.leftCols<6>() += Jm.transpose() * Jb;
-    own.topLeftCorner<6, 6>() += Jb.transpose() * Jb;
-  }
-  return mounting - cross * own.ldlt().solve(cross.transpose());
+Matrix6d board_information(const Chessboard& board, const BoardView& view,
+                           const Eigen::Isometry3d& T_camera_lidar, const PinholeIntrinsics& intrinsics,
+                           const JointNoise& noise) {
+  JointProblem problem(board, intrinsics, noise, T_camera_lidar);
+  problem.add(view, Eigen::Isometry3d::Identity());
+  const Matrix6d covariance = problem.covariance().topLeftCorner<6, 6>();
+  return covariance.allFinite() ? Matrix6d(covariance.inverse()) : Matrix6d(Matrix6d::Zero());
 }
 
 }  // namespace alight

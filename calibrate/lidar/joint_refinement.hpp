@@ -38,10 +38,10 @@ JointResult refine_jointly(const Chessboard& board, const std::vector<JointBoard
                            const PinholeIntrinsics& intrinsics, const JointNoise& noise,
                            const Eigen::Isometry3d& T_camera_lidar);
 
-/// What one more board would add to the information on (translation, rotation) of the mounting: its corners in the
-/// camera, its pose as well known to the LiDAR as `information` says (7x7 as LidarBoard's, offset included).
-Matrix6d board_information(const Chessboard& board, const Eigen::Isometry3d& T_camera_lidar,
-                           const Eigen::Isometry3d& T_lidar_board, const LidarBoard::Information& information,
-                           const PinholeIntrinsics& intrinsics, const JointNoise& noise);
+/// What one more board, alone, tells of (translation, rotation) of the mounting: the inverse of the covariance; none where
+/// it leaves a direction free.
+Matrix6d board_information(const Chessboard& board, const BoardView& view,
+                           const Eigen::Isometry3d& T_camera_lidar, const PinholeIntrinsics& intrinsics,
+                           const JointNoise& noise);
 
 }  // namespace alight

@@ -1,12 +1,18 @@
 #include "calibrate/stereo/stereo_bundle.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <tuple>
 
-#include <Eigen/Dense>
+#include <ceres/autodiff_cost_function.h>
+#include <ceres/problem.h>
 #include <opencv2/calib3d.hpp>
 
-#include "calibrate/fitting/levenberg_marquardt.hpp"
-#include "calibrate/fitting/rigid_motion.hpp"
+#include "calibrate/fitting/least_squares.hpp"
+#include "calibrate/fitting/pose_block.hpp"
+#include "foundation/errors.hpp"
 
 namespace alight {
 namespace {
@@ -30,105 +36,152 @@ Points project(const Chessboard& board, const Camera& camera, const Eigen::Isome
   return pixels;
 }
 
-Eigen::Index lens_parameters(const Camera& camera) {
-  return 4 + static_cast<Eigen::Index>(camera.distortion_coeffs.size());
+/// Squared reprojection errors, summed.
+double squared_error(const Points& projected, const Corners& corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    sum += std::pow(cv::norm(projected[i] - cv::Point2d(corners[i])), 2);
+  return sum;
 }
 
-Camera moved(const Camera& camera, const Eigen::VectorXd& step) {
-  Camera result = camera;
-  result.intrinsics.fx_px += step[0];
-  result.intrinsics.fy_px += step[1];
-  result.intrinsics.cx_px += step[2];
-  result.intrinsics.cy_px += step[3];
-  for (std::size_t i = 0; i < camera.distortion_coeffs.size(); ++i)
-    result.distortion_coeffs[i] += step[4 + static_cast<Eigen::Index>(i)];
-  return result;
+/// fx fy cx cy, then the distortion's coefficients; those that a lens does not have stay zero.
+using LensBlock = std::array<double, 9>;
+
+LensBlock lens_block(const Camera& camera) {
+  const PinholeIntrinsics& k = camera.intrinsics;
+  LensBlock block{k.fx_px, k.fy_px, k.cx_px, k.cy_px};
+  std::copy(camera.distortion_coeffs.begin(), camera.distortion_coeffs.end(), block.begin() + 4);
+  return block;
 }
 
-Eigen::Isometry3d turned(const Eigen::Isometry3d& T, const Vector6d& step) {
-  Eigen::Isometry3d result = T;
-  result.translation() += step.head<3>();
-  result.linear() = rotation_exp(step.tail<3>()) * T.linear();
-  return result;
+Camera with_lens(Camera camera, const LensBlock& block) {
+  PinholeIntrinsics& k = camera.intrinsics;
+  std::tie(k.fx_px, k.fy_px, k.cx_px, k.cy_px) = std::tie(block[0], block[1], block[2], block[3]);
+  std::copy_n(block.begin() + 4, camera.distortion_coeffs.size(), camera.distortion_coeffs.begin());
+  return camera;
 }
 
-Eigen::Index shared_parameters(const StereoBundle& s) {
-  return lens_parameters(s.left) + lens_parameters(s.right) + 6;
+/// cv::projectPoints' model at z = 1. D: k1 k2 p1 p2 k3
+template <class T>
+Eigen::Matrix<T, 2, 1> distort_radtan(const T& x, const T& y, const T* D) {
+  const T r2 = x * x + y * y;
+  const T radial = 1.0 + r2 * (D[0] + r2 * (D[1] + r2 * D[4]));
+  return {x * radial + 2.0 * D[2] * x * y + D[3] * (r2 + 2.0 * x * x),
+          y * radial + D[2] * (r2 + 2.0 * y * y) + 2.0 * D[3] * x * y};
 }
 
-StereoBundle moved(const StereoBundle& state, const Eigen::VectorXd& step) {
-  StereoBundle result = state;
-  const Eigen::Index left = lens_parameters(state.left);
-  const Eigen::Index right = lens_parameters(state.right);
-  result.left = moved(state.left, step.head(left));
-  result.right = moved(state.right, step.segment(left, right));
-  result.T_right_left = turned(state.T_right_left, step.segment<6>(left + right));
-  for (std::size_t v = 0; v < state.T_left_board.size(); ++v)
-    result.T_left_board[v] =
-        turned(state.T_left_board[v], step.segment<6>(left + right + 6 + 6 * static_cast<Eigen::Index>(v)));
-  return result;
+/// cv::fisheye::projectPoints' model at z = 1. D: k1 k2 k3 k4
+template <class T>
+Eigen::Matrix<T, 2, 1> distort_equidistant(const T& x, const T& y, const T* D) {
+  using std::atan;
+  using std::sqrt;
+  const T r2 = x * x + y * y;
+  if (r2 < 1e-16) return {x, y};
+  const T r = sqrt(r2);
+  const T theta = atan(r);
+  const T t2 = theta * theta;
+  const T scale = theta * (1.0 + t2 * (D[0] + t2 * (D[1] + t2 * (D[2] + t2 * D[3])))) / r;
+  return {x * scale, y * scale};
 }
 
-/// Residuals of one view: left u v of each corner, then right.
-Eigen::VectorXd residuals(const Chessboard& board, const StereoCorners& corners, const StereoBundle& s,
-                          std::size_t view) {
-  const int n = board.corners();
-  Eigen::VectorXd r(4 * n);
-  const Points left = project(board, s.left, s.T_left_board[view]);
-  const Points right = project(board, s.right, s.T_right_left * s.T_left_board[view]);
-  for (int i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    r[2 * i] = left[k].x - static_cast<double>((*corners.left)[k].x);
-    r[2 * i + 1] = left[k].y - static_cast<double>((*corners.left)[k].y);
-    r[2 * n + 2 * i] = right[k].x - static_cast<double>((*corners.right)[k].x);
-    r[2 * n + 2 * i + 1] = right[k].y - static_cast<double>((*corners.right)[k].y);
+/// Reprojection error of a corner in pixels.
+struct StereoCornerResidual {
+  Eigen::Vector3d p_board;
+  Eigen::Vector2d pixel;
+  DistortionModel model;
+
+  template <class T>
+  bool operator()(const T* lens, const T* T_left_board, T* residual) const {
+    return reproject<T>(lens, PoseView<T>(T_left_board) * p_board.cast<T>(), residual);
   }
-  return r;
-}
-
-class BundleProblem {
- public:
-  BundleProblem(const Chessboard& board, const std::vector<StereoCorners>& corners)
-      : board_(board), corners_(corners) {}
-
-  NormalEquations linearise(const StereoBundle& state) const {
-    constexpr double kStep = 1e-6;
-    const Eigen::Index shared = shared_parameters(state);
-    const Eigen::Index size = shared + 6 * static_cast<Eigen::Index>(corners_.size());
-    NormalEquations out{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0};
-    for (std::size_t v = 0; v < corners_.size(); ++v) {
-      const Eigen::Index own = shared + 6 * static_cast<Eigen::Index>(v);
-      const Eigen::VectorXd r = residuals(board_, corners_[v], state, v);
-      Eigen::MatrixXd J(r.size(), shared + 6);
-      for (Eigen::Index k = 0; k < shared + 6; ++k) {
-        Eigen::VectorXd step = Eigen::VectorXd::Zero(size);
-        step[k < shared ? k : own + k - shared] = kStep;
-        J.col(k) = (residuals(board_, corners_[v], moved(state, step), v) -
-                    residuals(board_, corners_[v], moved(state, -step), v)) /
-                   (2 * kStep);
-      }
-      const Eigen::MatrixXd H = J.transpose() * J;
-      const Eigen::VectorXd g = J.transpose() * r;
-      out.H.topLeftCorner(shared, shared) += H.topLeftCorner(shared, shared);
-      out.H.block(0, own, shared, 6) += H.topRightCorner(shared, 6);
-      out.H.block(own, 0, 6, shared) += H.bottomLeftCorner(6, shared);
-      out.H.block<6, 6>(own, own) += H.bottomRightCorner<6, 6>();
-      out.g.head(shared) += g.head(shared);
-      out.g.segment<6>(own) += g.tail<6>();
-      out.cost += 0.5 * r.squaredNorm();
-    }
-    return out;
-  }
-  double cost(const StereoBundle& state) const {
-    double sum = 0;
-    for (std::size_t v = 0; v < corners_.size(); ++v)
-      sum += residuals(board_, corners_[v], state, v).squaredNorm();
-    return 0.5 * sum;
+  template <class T>
+  bool operator()(const T* lens, const T* T_right_left, const T* T_left_board, T* residual) const {
+    return reproject<T>(lens, PoseView<T>(T_right_left) * (PoseView<T>(T_left_board) * p_board.cast<T>()),
+                        residual);
   }
 
  private:
+  template <class T>
+  bool reproject(const T* lens, const Eigen::Matrix<T, 3, 1>& p, T* residual) const {
+    const T x = p.x() / p.z();
+    const T y = p.y() / p.z();
+    const Eigen::Matrix<T, 2, 1> distorted = model == DistortionModel::kEquidistant
+                                                 ? distort_equidistant(x, y, lens + 4)
+                                                 : distort_radtan(x, y, lens + 4);
+    residual[0] = lens[0] * distorted.x() + lens[2] - pixel.x();
+    residual[1] = lens[1] * distorted.y() + lens[3] - pixel.y();
+    return true;
+  }
+};
+
+/// All of a bundle as parameter blocks.
+class BundleProblem {
+ public:
+  BundleProblem(const Chessboard& board, const std::vector<StereoCorners>& corners, const StereoBundle& start)
+      : board_(board),
+        left_(lens_block(start.left)),
+        right_(lens_block(start.right)),
+        T_right_left_(pose_block(start.T_right_left)) {
+    add_lens(start.left, left_);
+    add_lens(start.right, right_);
+    problem_.AddParameterBlock(T_right_left_.data(), 7, new PoseManifold);
+    T_left_board_.reserve(corners.size());
+    for (std::size_t v = 0; v < corners.size(); ++v) {
+      T_left_board_.push_back(pose_block(start.T_left_board[v]));
+      add_view(corners[v], start, T_left_board_.back());
+    }
+  }
+
+  std::optional<double> minimise() { return alight::minimise(problem_); }
+  /// Of the lenses and the right camera's place; empty where the views leave a direction free.
+  std::optional<Eigen::MatrixXd> covariance() {
+    return alight::covariance(problem_, {left_.data(), right_.data(), T_right_left_.data()});
+  }
+  /// Residuals less parameters.
+  double freedom() const {
+    int parameters = 0;
+    std::vector<double*> blocks;
+    problem_.GetParameterBlocks(&blocks);
+    for (const double* block : blocks) parameters += problem_.ParameterBlockTangentSize(block);
+    return problem_.NumResiduals() - parameters;
+  }
+  StereoBundle bundle(const StereoBundle& start) const {
+    StereoBundle result{
+        with_lens(start.left, left_), with_lens(start.right, right_), transform_of(T_right_left_), {}};
+    for (const PoseBlock& pose : T_left_board_) result.T_left_board.push_back(transform_of(pose));
+    return result;
+  }
+
+ private:
+  void add_lens(const Camera& camera, LensBlock& block) {
+    std::vector<int> constant;
+    for (std::size_t i = 4 + camera.distortion_coeffs.size(); i < block.size(); ++i)
+      constant.push_back(static_cast<int>(i));
+    problem_.AddParameterBlock(block.data(), static_cast<int>(block.size()),
+                               new ceres::SubsetManifold(static_cast<int>(block.size()), constant));
+  }
+  void add_view(const StereoCorners& corners, const StereoBundle& start, PoseBlock& T_left_board) {
+    problem_.AddParameterBlock(T_left_board.data(), 7, new PoseManifold);
+    const auto residual = [&](const Camera& camera, const Corners& seen, int i) {
+      const cv::Point2d pixel = seen[static_cast<std::size_t>(i)];
+      return new StereoCornerResidual{board_.corner(i), {pixel.x, pixel.y}, camera.distortion_model};
+    };
+    for (int i = 0; i < board_.corners(); ++i) {
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<StereoCornerResidual, 2, 9, 7>(
+                                    residual(start.left, *corners.left, i)),
+                                nullptr, left_.data(), T_left_board.data());
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<StereoCornerResidual, 2, 9, 7, 7>(
+                                    residual(start.right, *corners.right, i)),
+                                nullptr, right_.data(), T_right_left_.data(), T_left_board.data());
+    }
+  }
+
   const Chessboard& board_;
-  const std::vector<StereoCorners>& corners_;
+  LensBlock left_;
+  LensBlock right_;
+  PoseBlock T_right_left_;
+  std::vector<PoseBlock> T_left_board_;  // of which the problem holds pointers
+  ceres::Problem problem_;
 };
 
 }  // namespace
@@ -142,23 +195,25 @@ Corners project_board(const Chessboard& board, const Camera& camera,
 
 BundleResult refine_stereo(const Chessboard& board, const std::vector<StereoCorners>& corners,
                            const StereoBundle& start) {
-  const BundleProblem problem(board, corners);
-  BundleResult result;
-  result.bundle = start;
-  const NormalEquations end = minimise(
-      result.bundle, [&](const StereoBundle& s) { return problem.linearise(s); },
-      [&](const StereoBundle& s) { return problem.cost(s); },
-      [](const StereoBundle& s, const Eigen::VectorXd& step) { return moved(s, step); });
-  const int n = board.corners();
-  for (std::size_t v = 0; v < corners.size(); ++v) {
-    const Eigen::VectorXd r = residuals(board, corners[v], result.bundle, v);
-    result.errors.push_back({r.head(2 * n).squaredNorm(), r.tail(2 * n).squaredNorm()});
+  BundleProblem problem(board, corners, start);
+  const std::optional<double> cost = problem.minimise();
+  const std::optional<Eigen::MatrixXd> covariance = cost ? problem.covariance() : std::nullopt;
+  if (!covariance) {
+    throw DataError(
+        "the views do not fix the cameras: record the board tilted to all sides, near and far, and in every "
+        "corner of the image");
   }
-  const double residual_count = 4.0 * n * static_cast<double>(corners.size());
-  const double variance = 2 * end.cost / std::max(1.0, residual_count - static_cast<double>(end.H.rows()));
-  const Eigen::MatrixXd covariance =
-      end.H.ldlt().solve(Eigen::MatrixXd::Identity(end.H.rows(), shared_parameters(start)));
-  result.sigma = (variance * covariance.topRows(shared_parameters(start)).diagonal()).cwiseMax(0).cwiseSqrt();
+  BundleResult result;
+  result.bundle = problem.bundle(start);
+  const StereoBundle& found = result.bundle;
+  for (std::size_t v = 0; v < corners.size(); ++v) {
+    const Eigen::Isometry3d& T = found.T_left_board[v];
+    result.errors.push_back(
+        {squared_error(project(board, found.left, T), *corners[v].left),
+         squared_error(project(board, found.right, found.T_right_left * T), *corners[v].right)});
+  }
+  const double variance = 2 * *cost / std::max(1.0, problem.freedom());
+  result.sigma = (variance * covariance->diagonal()).cwiseSqrt();
   return result;
 }
 

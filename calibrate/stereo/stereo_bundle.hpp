@@ -37,7 +37,8 @@ struct BundleResult {
   Eigen::VectorXd sigma;
 };
 
-/// Levenberg-Marquardt over everything at once; the noise is the residuals' own.
+/// Least squares over everything at once (ceres::Solve); the noise is the residuals' own.
+/// @throws DataError the views leave a parameter free
 BundleResult refine_stereo(const Chessboard& board, const std::vector<StereoCorners>& corners,
                            const StereoBundle& start);
 

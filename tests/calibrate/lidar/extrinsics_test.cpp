@@ -32,11 +32,8 @@ BoardView view_of(const Chessboard& board, const Eigen::Vector3d& centre, double
   BoardView view;
   view.name = "board";
   view.lidar.T_lidar_board = mounting().inverse() * T_camera_board;
-  Vector6d sigma;
-  sigma << 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3;
-  view.lidar.information.setZero();
-  view.lidar.information.topLeftCorner<6, 6>() = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
-  view.lidar.information(6, 6) = 1e4;
+  view.lidar.covariance = 1e-6 * LidarBoard::Covariance::Identity();
+  view.lidar.covariance(6, 6) = 1e-4;
   for (int i = 0; i < board.corners(); ++i)
     view.pixels.push_back(kIntrinsics.project(T_camera_board * board.corner(i)));
   view.camera_first_dark = view.lidar_first_dark = true;

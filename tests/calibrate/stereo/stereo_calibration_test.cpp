@@ -161,6 +161,23 @@ TEST(StereoCalibration, LeavesOutAViewThatFitsFarWorseAndSaysSo) {
   EXPECT_THAT(format_stereo_report(result), HasSubstr("5 left out: fits with"));
 }
 
+// A board that faces the camera looks alike from near and through a long lens. All numbers are exact in binary.
+TEST(StereoCalibration, RefusesViewsThatLeaveTheFocalLengthFree) {
+  const Chessboard board{9, 6, 0.0625};
+  StereoBundle facing;
+  facing.left.intrinsics = facing.right.intrinsics = {256, 256, 320, 240, 640, 480};
+  facing.T_right_left.translation() = Eigen::Vector3d(-0.125, 0, 0);
+  facing.T_left_board = {Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1))};
+  const Corners left = project_board(board, facing.left, facing.T_left_board[0]);
+  const Corners right = project_board(board, facing.right, facing.T_right_left * facing.T_left_board[0]);
+  try {
+    refine_stereo(board, {{&left, &right}}, facing);
+    FAIL() << "nothing was thrown";
+  } catch (const DataError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("the views do not fix the cameras: record the board tilted"));
+  }
+}
+
 TEST(StereoCalibration, RefusesMixedResolutions) {
   std::vector<StereoView> views(2);
   views[0].left = views[0].right = views[1].left = cv::Mat::zeros(48, 64, CV_8UC1);
