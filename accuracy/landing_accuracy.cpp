@@ -48,7 +48,7 @@ std::vector<cv::Mat> masks(const SiteSelector& planes, const SiteSelector& colum
   return {selection.safe, columns.select(depth_m, T).safe, derivatives.select(depth_m, T).safe,
           px4_safe_mask(depth_m, level_depth_m, k, T, selection.R_level_camera),
           halss_safe_mask(depth_m, level_depth_m, k, T, selection.R_level_camera,
-                          planes.config().max_slope_deg, planes.config().min_radius_m)};
+                          planes.config().rules.max_slope_deg, planes.config().rules.min_radius_m)};
 }
 
 void run_world(const sim::WorldConfig& place, const Options& options, const SiteSelector& planes,
@@ -58,7 +58,7 @@ void run_world(const sim::WorldConfig& place, const Options& options, const Site
   const sim::SurfaceTruthConfig truth_config;
   const sim::SurfaceTruth truth(renderer, truth_config);
   const PinholeIntrinsics& k = planes.intrinsics();
-  const double clearance_m = planes.config().vehicle_radius_m + planes.config().margin_m;
+  const double clearance_m = planes.config().rules.vehicle_radius_m + planes.config().rules.margin_m;
   for (Tally& tally : tallies) tally.by_world.emplace_back();
   for (const double height_m : options.heights_m) {
     const auto seed = static_cast<std::uint64_t>(place.seed);

@@ -73,7 +73,7 @@ void select_fused_352(benchmark::State& state) {
   const SiteSelector selector({}, bench::paper_rig().intrinsics);
   const cv::Mat depth = bench::ground();
   const SiteSelection frame = selector.select(depth, tilted_camera());
-  FusedSelector fused({}, selector);
+  FusedSelector fused({}, PlaneJudge({}, {}, bench::paper_rig().intrinsics));
   std::int64_t t_ns = 0;
   for (auto _ : state)
     benchmark::DoNotOptimize(fused.update(t_ns += 50'000'000, depth, depth, tilted_camera(), frame, true));
@@ -84,7 +84,7 @@ BENCHMARK(select_fused_352)->Unit(benchmark::kMillisecond);
 void select_site_with_memory_352(benchmark::State& state) {
   const SiteSelector selector({}, bench::paper_rig().intrinsics);
   const cv::Mat depth = bench::ground();
-  FusedSelector fused({}, selector);
+  FusedSelector fused({}, PlaneJudge({}, {}, bench::paper_rig().intrinsics));
   fused.update(50'000'000, depth, depth, tilted_camera(), selector.look(depth, tilted_camera()), true);
   for (auto _ : state) {
     SiteSelection seen = selector.look(depth, tilted_camera());

@@ -74,10 +74,12 @@ std::vector<SensedDepth> DepthStage::take() {
 SiteStage::SiteStage(const LandingConfig& landing, const PinholeIntrinsics& intrinsics)
     : intrinsics_(intrinsics),
       selector_(landing.selection, intrinsics),
-      fused_(landing.fuse ? std::optional<FusedSelector>(std::in_place, landing.grid, selector_)
+      fused_(landing.fuse ? std::optional<FusedSelector>(
+                                std::in_place, landing.grid,
+                                PlaneJudge(landing.selection.plane_fit, landing.selection.rules, intrinsics))
                           : std::nullopt),
       site_source_(landing.site_source),
-      tracker_(landing.tracker, selector_) {}
+      tracker_(landing.tracker, landing.selection.rules.min_radius_m, intrinsics) {}
 
 FrameReport SiteStage::report(SensedDepth sensed) {
   FrameReport frame;

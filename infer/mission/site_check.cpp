@@ -16,13 +16,9 @@ struct Disc {
   int unsafe = 0;
 };
 
-/// Ground whose verdict does not come from the unknown beside it. The derivatives' erosion makes that much of it unsafe;
-/// planes need a whole known disc and no guard towards the unknown, so that the cells of the border are enough.
+/// Ground whose verdict does not come from the unknown beside it.
 cv::Mat surely_known(const SiteSelector& selector, const SiteSelection& selection, double metres_per_pixel) {
-  const SiteSelectionConfig& config = selector.config();
-  const double border_m = config.method == LandingMethod::kPlaneFit
-                              ? config.plane_fit.cell_m
-                              : metres_per_pixel * config.derivatives.erode_px;
+  const double border_m = selector.judge().doubtful_border_m(metres_per_pixel);
   const int border_px = static_cast<int>(std::ceil(border_m / metres_per_pixel));
   cv::Mat known;
   cv::erode(selection.terrain.known, known, cv::Mat::ones(2 * border_px + 1, 2 * border_px + 1, CV_8UC1),
@@ -51,7 +47,7 @@ Disc count_disc(const SiteSelection& selection, const cv::Mat& known, const Eige
 }
 
 /// The widest free circle whose centre is within `nudge_px`; the nearer one of two that are alike.
-std::optional<LandingSite> widest_near(const SiteSelector& selector, const SiteSelection& selection,
+std::optional<LandingSite> widest_near(const PinholeIntrinsics& camera, const SiteSelection& selection,
                                        const Eigen::Vector2d& centre_px, double nudge_px,
                                        double metres_per_pixel) {
   constexpr double kRadiusPerWay = 0.2;  // a metre of way is worth it for so much more radius
@@ -62,7 +58,7 @@ std::optional<LandingSite> widest_near(const SiteSelector& selector, const SiteS
     for (int du = -reach; du <= reach; ++du) {
       const double way_px = std::hypot(du, dv);
       if (way_px > nudge_px) continue;
-      const auto circle = selector.circle_at(selection, centre_px + Eigen::Vector2d(du, dv));
+      const auto circle = circle_at(selection, camera, centre_px + Eigen::Vector2d(du, dv));
       if (!circle) continue;
       const double score = circle->radius_m - kRadiusPerWay * way_px * metres_per_pixel;
       if (best && score <= best_score) continue;
@@ -93,12 +89,12 @@ SiteCheck check_site(const SiteSelector& selector, const SiteSelection& selectio
   check.known_share = static_cast<double>(disc.known) / disc.wanted;
   check.unsafe_share = disc.known > 0 ? static_cast<double>(disc.unsafe) / disc.known : 0;
 
-  auto circle = selector.circle_at(selection, centre_px);
+  auto circle = circle_at(selection, camera, centre_px);
   check.radius_m = circle ? circle->radius_m : 0;
   const bool too_narrow = check.radius_m < rule.radius_m + 0.5;
   if (rule.nudge_m > 0 && too_narrow) {
     const auto wider =
-        widest_near(selector, selection, centre_px, rule.nudge_m / metres_per_pixel, metres_per_pixel);
+        widest_near(camera, selection, centre_px, rule.nudge_m / metres_per_pixel, metres_per_pixel);
     if (wider && wider->radius_m > check.radius_m + 0.1) circle = wider;
   }
   if (circle && std::abs(circle->depth_m - p_level.z()) > rule.max_height_step_m) {

@@ -114,7 +114,7 @@ std::string site_text(const Json& frame, const LandingConfig& limits) {
   std::string text = "ground: ";
   if (frame.contains("largest_radius_m")) {
     text += fmt::format("largest safe circle {:.2f} m, more than {:.2f} m wanted\n",
-                        frame.at("largest_radius_m").get<double>(), limits.selection.min_radius_m);
+                        frame.at("largest_radius_m").get<double>(), limits.selection.rules.min_radius_m);
   } else {
     text += "no safe circle was looked for, or none is there\n";
   }

@@ -53,7 +53,7 @@ Scores measure() {
         const Eigen::Isometry3d T_world_level = level_pose(s.T_world_camera, selection.R_level_camera);
         const cv::Mat material = level_material(perfect.material, k, selection.R_level_camera);
         const TruthView view = truth_view(truth, {}, selection.level_depth_m, material, k, T_world_level,
-                                          config.vehicle_radius_m);
+                                          config.rules.vehicle_radius_m);
         scores.planes.add(score_mask(selection.safe, view, material));
         scores.columns.add(
             score_mask(columns.select(perfect.depth_m, s.T_world_camera).safe, view, material));

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <algorithm>
+
 #include <Eigen/Core>
+
+#include "geometry/camera.hpp"
 
 namespace alight {
 
@@ -19,5 +23,11 @@ struct LandingSite {
   double confidence = 1;  ///< mean over the circle, 0..1
   double score = 0;       ///< see SiteRankingConfig
 };
+
+/// Pixels per unit of length at unit depth, for radii: of the two focal lengths the longer one, which makes the smaller
+/// circle.
+inline double radius_focal_px(const PinholeIntrinsics& intrinsics) {
+  return std::max(intrinsics.fx_px, intrinsics.fy_px);
+}
 
 }  // namespace alight

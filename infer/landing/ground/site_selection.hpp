@@ -7,8 +7,10 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "geometry/camera.hpp"
 #include "infer/landing/ground/ground_map.hpp"
 #include "infer/landing/ground/landing_site.hpp"
+#include "infer/landing/ground/site_rules.hpp"
 #include "infer/landing/ground/terrain.hpp"
 
 namespace alight {
@@ -37,6 +39,14 @@ struct SiteSelection {
 
   bool found() const { return status == SiteStatus::kFound; }
 };
+
+/// The free circle around a pixel of the level camera; empty outside the image and on unsafe ground.
+/// @param intrinsics of the level camera, whose size the maps have
+std::optional<LandingSite> circle_at(const SiteSelection& selection, const PinholeIntrinsics& intrinsics,
+                                     const Eigen::Vector2d& centre_px);
+
+/// The end of a selection, once its circles are found: status, scores and the order of the sites.
+void conclude(const SiteRules& rules, SiteSelection& selection);
 
 /// "landing site of 3.1 m", "no depth", "no flat area", "largest circle 1.4 m".
 std::string describe(const SiteSelection& selection);

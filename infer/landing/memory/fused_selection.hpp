@@ -3,15 +3,15 @@
 #include <cstdint>
 
 #include "infer/landing/memory/elevation_grid.hpp"
-#include "infer/landing/site_selector.hpp"
+#include "infer/landing/planes/plane_judge.hpp"
 
 namespace alight {
 
-/// Site selection on the ground as all frames together know it: each frame goes into an ElevationGrid, and plane_fit
-/// judges the grid. A hazard seen once stays one when the view has moved on, and ground outside the view counts.
+/// Site selection on the ground as all frames together know it: each frame goes into an ElevationGrid, and planes
+/// judge the grid. A hazard seen once stays one when the view has moved on, and ground outside the view counts.
 class FusedSelector {
  public:
-  FusedSelector(const ElevationGridConfig& grid, const SiteSelector& selector);
+  FusedSelector(const ElevationGridConfig& grid, const PlaneJudge& judge);
 
   /// Adds a frame and decides. Frames must come in time order. @throws std::invalid_argument
   /// @param depth_m CV_32FC1 plane depth, 0 = unknown
@@ -26,7 +26,7 @@ class FusedSelector {
 
  private:
   ElevationGrid grid_;
-  SiteSelector selector_;
+  PlaneJudge judge_;
 };
 
 }  // namespace alight

@@ -21,8 +21,9 @@ void bind(Binder& b, SiteTrackerConfig& c) {
           "a site whose height changes more between frames is dropped", between(0.01, 100));
 }
 
-SiteTracker::SiteTracker(const SiteTrackerConfig& config, const SiteSelector& selector)
-    : config_(config), selector_(selector) {}
+SiteTracker::SiteTracker(const SiteTrackerConfig& config, double min_radius_m,
+                         const PinholeIntrinsics& intrinsics)
+    : config_(config), min_radius_m_(min_radius_m), intrinsics_(intrinsics) {}
 
 void SiteTracker::advance(std::int64_t t_ns) {
   if (!last_ns_) confirmed_ns_ = t_ns;
@@ -37,8 +38,8 @@ std::optional<TrackedSite> SiteTracker::keep(const SiteSelection& selection,
   if (!site_) return std::nullopt;
   const Eigen::Vector3d p_level = T_world_level.inverse() * site_->p_world;
   if (p_level.z() <= 0) return std::nullopt;
-  const auto circle = selector_.circle_at(selection, selector_.intrinsics().project(p_level));
-  if (!circle || circle->radius_m <= selector_.config().min_radius_m) return std::nullopt;
+  const auto circle = circle_at(selection, intrinsics_, intrinsics_.project(p_level));
+  if (!circle || circle->radius_m <= min_radius_m_) return std::nullopt;
   if (std::abs(circle->depth_m - p_level.z()) > config_.max_height_step_m) return std::nullopt;
   TrackedSite kept = *site_;
   kept.circle = *circle;
@@ -65,7 +66,7 @@ SiteDecision SiteTracker::update(std::int64_t t_ns, const SiteSelection& selecti
     // The best one in view: only there can it be confirmed.
     for (const LandingSite& site : selection.sites) {
       const Eigen::Vector2d& px = site.centre_px;
-      if (site.p_level.z() <= 0 || !selector_.intrinsics().contains(px.x(), px.y())) continue;
+      if (site.p_level.z() <= 0 || !intrinsics_.contains(px.x(), px.y())) continue;
       now = TrackedSite{site, T_world_level * site.p_level, 1, false};
       break;
     }

@@ -5,7 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "infer/landing/site_selector.hpp"
+#include "geometry/camera.hpp"
+#include "infer/landing/ground/site_selection.hpp"
 
 namespace alight {
 
@@ -36,7 +37,8 @@ struct SiteDecision {
 /// frame's largest circle and starts to count anew. Its place in the world stays; only its height follows the depth.
 class SiteTracker {
  public:
-  SiteTracker(const SiteTrackerConfig& config, const SiteSelector& selector);
+  /// @param min_radius_m a site that gets smaller is no site any more. @param intrinsics of the level camera
+  SiteTracker(const SiteTrackerConfig& config, double min_radius_m, const PinholeIntrinsics& intrinsics);
 
   /// A frame with trusted depth. Frames must come in time order. @throws std::invalid_argument
   /// @param T_world_camera pose of the left camera (selection.R_level_camera levels it)
@@ -53,7 +55,8 @@ class SiteTracker {
   SiteDecision conclude(std::int64_t t_ns, std::optional<TrackedSite> site);
 
   SiteTrackerConfig config_;
-  SiteSelector selector_;
+  double min_radius_m_;
+  PinholeIntrinsics intrinsics_;
   std::optional<TrackedSite> site_;
   std::optional<std::int64_t> last_ns_;
   std::int64_t confirmed_ns_ = 0;  // when a site last counted, or the first frame

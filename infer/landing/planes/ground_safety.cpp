@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,8 @@ void remove_platforms(const ElevationRaster& raster, const PlaneFitConfig& confi
 
 GroundMap judge_ground(ElevationRaster raster, GroundShape shape, const cv::Mat& hazards,
                        const PlaneFitConfig& config, double max_slope_rad) {
+  if (!hazards.empty() && (hazards.type() != CV_8UC1 || hazards.size() != raster.size()))
+    throw std::invalid_argument("judge_ground: hazards must be CV_8UC1 of the raster's size");
   GroundMap ground;
   ground.raster = std::move(raster);
   if (ground.empty()) return ground;
@@ -84,7 +87,7 @@ GroundMap judge_ground(ElevationRaster raster, GroundShape shape, const cv::Mat&
                  (ground.shape.residual_m < config.max_residual_m) & ground.shape.known;
   if (config.platform_height_m > 0) remove_platforms(ground.raster, config, flat);
   cv::Mat hazard = ground.shape.known & ~flat;
-  if (!hazards.empty()) hazard |= hazards;
+  if (!hazards.empty()) hazard |= hazards != 0;
   const int guard = cells(config.guard_m, ground.raster.cell_m);
   if (guard > 0)
     cv::dilate(hazard, hazard, disc_mask(guard), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));

@@ -7,8 +7,8 @@ namespace alight {
 /// Over which ground a plane is laid, and what makes a cell of it unsafe. Metres on the ground: the answer depends neither
 /// on the height of flight nor on the size of a pixel.
 struct PlaneFitConfig {
-  double cell_m = 0.2;           ///< side of a cell; higher up it grows with the pixels, so that none stays empty
-  double radius_m = 0.6;         ///< of the disc on which a cell's plane is fitted
+  double cell_m = 0.2;    ///< side of a cell; higher up it grows with the pixels, so that none stays empty
+  double radius_m = 0.6;  ///< of the disc on which a cell's plane is fitted
   double max_residual_m = 0.07;  ///< nothing on the disc may lie farther above or below the plane
   /// 1 sigma of a single depth: what noise explains of the highest and lowest points is no residual. 0: depth is perfect.
   double noise_m = 0.02;

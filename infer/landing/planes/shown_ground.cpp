@@ -1,11 +1,11 @@
-// The judged raster as the level camera sees it: the maps of a SiteSelection by plane_fit.
+#include "infer/landing/planes/shown_ground.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "geometry/wide_loops.hpp"
-#include "infer/landing/site_selector.hpp"
 
 namespace alight {
 namespace {
@@ -72,9 +72,9 @@ ALIGHT_WIDE_LOOPS void find_cells(int width, const float* z, const float (&camer
 
 }  // namespace
 
-/// Every pixel of the level camera shows its cell.
-void SiteSelector::show_ground(const Eigen::Isometry3d& T_world_level, SiteSelection& out) const {
-  const cv::Size size = intrinsics_.size();
+void show_ground(const PinholeIntrinsics& intrinsics, const Eigen::Isometry3d& T_world_level, double margin_m,
+                 SiteSelection& out) {
+  const cv::Size size = intrinsics.size();
   out.terrain.slope_rad = cv::Mat::zeros(size, CV_32FC1);
   out.terrain.residual_m = cv::Mat::zeros(size, CV_32FC1);
   out.terrain.known = cv::Mat::zeros(size, CV_8UC1);
@@ -89,11 +89,11 @@ void SiteSelector::show_ground(const Eigen::Isometry3d& T_world_level, SiteSelec
                                static_cast<double>(raster.first_row));
   const Eigen::Vector2f camera = (T_world_level.translation().head<2>() * per_m - corner).cast<float>();
   const Eigen::Matrix2f turn = (T_world_level.linear().topLeftCorner<2, 2>() * per_m).cast<float>();
-  const auto margin_m = static_cast<float>(config_.margin_m);
+  const auto off_radius_m = static_cast<float>(margin_m);
   RowCells row(size.width);
   for (int v = 0; v < size.height; ++v) {
-    const Eigen::Vector2f first = turn * intrinsics_.ray(0, v).head<2>().cast<float>();
-    const Eigen::Vector2f step = turn.col(0) / static_cast<float>(intrinsics_.fx_px);
+    const Eigen::Vector2f first = turn * intrinsics.ray(0, v).head<2>().cast<float>();
+    const Eigen::Vector2f step = turn.col(0) / static_cast<float>(intrinsics.fx_px);
     find_cells(size.width, out.level_depth_m.ptr<float>(v), {camera.x(), camera.y()}, {first.x(), first.y()},
                {step.x(), step.y()}, raster.size(), static_cast<float>(raster.cell_m), row.cell.data(),
                row.off_centre_m.data());
@@ -110,7 +110,7 @@ void SiteSelector::show_ground(const Eigen::Isometry3d& T_world_level, SiteSelec
       residual_m[u] = cell.residual_m;
       safe[u] = cell.safe;
       // The circle around the pixel lies in the one around the cell's centre.
-      radius_m[u] = std::max(cell.radius_m - row.off_centre_m[u] - margin_m, 0.F);
+      radius_m[u] = std::max(cell.radius_m - row.off_centre_m[u] - off_radius_m, 0.F);
     }
   }
 }

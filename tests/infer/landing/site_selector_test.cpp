@@ -29,17 +29,19 @@ TEST(SiteSelectionConfig, BadValuesAreRefused) {
               HasSubstr("derivatives.dilate_px: must not exceed erode_px"));
   EXPECT_THAT(mistakes_of("{method: derivatives, derivatives: {smoothing_px: 4}}"),
               HasSubstr("derivatives.smoothing_px: must be odd"));
-  EXPECT_THAT(mistakes_of("{vehicle_radius_m: 3}"), HasSubstr("min_radius_m: must be at least vehicle_radius_m"));
+  EXPECT_THAT(mistakes_of("{vehicle_radius_m: 3}"),
+              HasSubstr("min_radius_m: must be at least vehicle_radius_m"));
   EXPECT_THAT(mistakes_of("{method: guess}"), HasSubstr("method: expected one of plane_fit | derivatives"));
   EXPECT_THAT(mistakes_of("{ranking: {weight_size: 0}}"), HasSubstr("weight_size: must be positive"));
   EXPECT_THAT(mistakes_of("{max_slope: 4}"), HasSubstr("max_slope: no such key"));
-  EXPECT_EQ(parse_config<SiteSelectionConfig>("{max_slope_deg: 4}", "x").max_slope_deg, 4);
+  EXPECT_EQ(parse_config<SiteSelectionConfig>("{max_slope_deg: 4}", "x").rules.max_slope_deg, 4);
 }
 
 TEST(SiteSelectionConfig, KeysOfTheOtherMethodAreAMistake) {
-  EXPECT_EQ(mistakes_of("max_slope_deg: 7\nderivatives:\n  erode_px: 7\n"),
-            "x.yaml:2: derivatives: belongs to method: derivatives, and the method is plane_fit; remove it or "
-            "choose that method");
+  EXPECT_EQ(
+      mistakes_of("max_slope_deg: 7\nderivatives:\n  erode_px: 7\n"),
+      "x.yaml:2: derivatives: belongs to method: derivatives, and the method is plane_fit; remove it or "
+      "choose that method");
   EXPECT_EQ(mistakes_of("plane_fit: {guard_m: 1}\nmethod: derivatives\n"),
             "x.yaml:1: plane_fit: belongs to method: plane_fit, and the method is derivatives; remove it or "
             "choose that method");

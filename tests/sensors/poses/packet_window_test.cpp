@@ -5,12 +5,12 @@
 namespace alight {
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;
+constexpr std::int64_t kMs = 1'000'000;
 
 WorldPacketPtr packet_of(std::int64_t end_ms, int points = 10) {
   auto packet = std::make_shared<WorldPacket>();
-  packet->end_ns = end_ms * kMillisecond;
-  packet->begin_ns = (end_ms - 100) * kMillisecond;
+  packet->end_ns = end_ms * kMs;
+  packet->begin_ns = (end_ms - 100) * kMs;
   packet->duration_s = 0.1;
   packet->points.resize(static_cast<std::size_t>(points));
   return packet;
@@ -18,18 +18,18 @@ WorldPacketPtr packet_of(std::int64_t end_ms, int points = 10) {
 
 std::vector<std::int64_t> ends_ms(const std::vector<WorldPacketPtr>& packets) {
   std::vector<std::int64_t> ends;
-  for (const auto& packet : packets) ends.push_back(packet->end_ns / kMillisecond);
+  for (const auto& packet : packets) ends.push_back(packet->end_ns / kMs);
   return ends;
 }
 
 TEST(PacketWindow, GivesTheNewestPastFirstAndOneMoreToHoldOut) {
   PacketWindow window(1000);
   for (const int end : {1000, 1100, 1200, 1300, 1400, 1500}) window.add(packet_of(end));
-  EXPECT_EQ(ends_ms(window.before(1450 * kMillisecond, 0.2, 10)),
+  EXPECT_EQ(ends_ms(window.before(1450 * kMs, 0.2, 10)),
             (std::vector<std::int64_t>{1400, 1300, 1200}));
-  EXPECT_EQ(ends_ms(window.before(1400 * kMillisecond, 0.1, 10)), (std::vector<std::int64_t>{1400, 1300}));
-  EXPECT_EQ(ends_ms(window.after(1400 * kMillisecond)), (std::vector<std::int64_t>{1500}));
-  EXPECT_EQ(ends_ms(window.before(1450 * kMillisecond, 5, 0.3)), (std::vector<std::int64_t>{1400, 1300}));
+  EXPECT_EQ(ends_ms(window.before(1400 * kMs, 0.1, 10)), (std::vector<std::int64_t>{1400, 1300}));
+  EXPECT_EQ(ends_ms(window.after(1400 * kMs)), (std::vector<std::int64_t>{1500}));
+  EXPECT_EQ(ends_ms(window.before(1450 * kMs, 5, 0.3)), (std::vector<std::int64_t>{1400, 1300}));
 }
 
 TEST(PacketWindow, MemoryIsBoundedByTimeAndByPoints) {
@@ -37,7 +37,7 @@ TEST(PacketWindow, MemoryIsBoundedByTimeAndByPoints) {
   for (int end = 100; end <= 100000; end += 100) window.add(packet_of(end));
   EXPECT_EQ(window.packets(), 9U);
   EXPECT_EQ(window.points(), 90U);
-  window.forget_before(99700 * kMillisecond);
+  window.forget_before(99700 * kMs);
   EXPECT_EQ(window.packets(), 4U);
   window.add(packet_of(100100, 5000));  // larger than the bound: kept alone
   EXPECT_EQ(window.packets(), 1U);

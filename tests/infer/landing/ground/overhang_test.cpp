@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "infer/landing/site_selector.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
 namespace alight {
@@ -103,20 +102,6 @@ TEST(ColumnsInView, EndWhereTheCamerasOwnImageEnds) {
   }
   EXPECT_NEAR(raster.centre_m(end, row).x() - 3, east_m, 0.15);
   EXPECT_NEAR(3 - raster.centre_m(begin, row).x(), west_m, 0.15);
-}
-
-TEST(ColumnsInView, GroundBelowACrownBesideTheImageIsNotSafe) {
-  // The crown itself is not in the image, so nothing but its absence can be told.
-  const PinholeIntrinsics k = camera_of(352, 352);
-  SiteSelectionConfig config;
-  const cv::Mat depth = scenes::level_ground(k, 12);
-  const auto safe_half_m = [&] {
-    const SiteSelection s = SiteSelector(config, k).select(depth, scenes::attitude(0, 0));
-    return std::sqrt(cv::countNonZero(s.safe)) / 2 * 12 / 440;
-  };
-  EXPECT_NEAR(safe_half_m(), 0.4 * 12 - 0.6, 0.3);
-  config.plane_fit.column_m = 4;
-  EXPECT_NEAR(safe_half_m(), 0.4 * (12 - 4), 0.2);
 }
 
 }  // namespace

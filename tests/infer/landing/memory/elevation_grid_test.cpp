@@ -7,6 +7,7 @@
 #include "foundation/config_reader.hpp"
 #include "infer/landing/memory/fused_selection.hpp"
 #include "infer/landing/planes/plane_fit.hpp"
+#include "infer/landing/site_selector.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
 namespace alight {
@@ -251,7 +252,7 @@ TEST_F(ElevationGridTest, RefusesOtherCellsAndGoingBackInTime) {
 
 TEST_F(ElevationGridTest, FusedSelectionKeepsAwayFromWhatTheFrameDoesNotSee) {
   const SiteSelector selector({}, k_);
-  FusedSelector fused({}, selector);
+  FusedSelector fused({}, PlaneJudge({}, {}, k_));
   const auto add = [&](const Eigen::Isometry3d& T, const Height& height) {
     const cv::Mat depth = depth_of(T, height);
     const SiteSelection frame = selector.select(depth, T);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "infer/landing/site_selector.hpp"
 #include "tests/infer/landing/landing_scenes.hpp"
 
 namespace alight {
@@ -46,7 +47,7 @@ class SiteTrackerTest : public testing::Test {
 
   PinholeIntrinsics k_ = camera_of(352, 352);
   SiteSelector selector_{{}, k_};
-  SiteTracker tracker_{{}, selector_};
+  SiteTracker tracker_{{}, SiteRules{}.min_radius_m, k_};
   std::int64_t t_ns_ = 0;
 };
 

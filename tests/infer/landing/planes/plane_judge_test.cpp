@@ -1,5 +1,8 @@
+#include "infer/landing/planes/plane_judge.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,9 +23,9 @@ SiteSelectionConfig planes() {
   return config;
 }
 
-class PlaneFitSlope : public testing::TestWithParam<double> {};
+class PlaneJudgeSlope : public testing::TestWithParam<double> {};
 
-TEST_P(PlaneFitSlope, IsDecidedTheSameFromEveryHeight) {
+TEST_P(PlaneJudgeSlope, IsDecidedTheSameFromEveryHeight) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const double gradient = std::tan(to_radians(GetParam()));
   for (const double height_m : {8.0, 20.0, 40.0}) {
@@ -34,9 +37,9 @@ TEST_P(PlaneFitSlope, IsDecidedTheSameFromEveryHeight) {
     if (GetParam() > 10) EXPECT_EQ(safe, 0) << height_m;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Planes, PlaneFitSlope, testing::Values(0.0, 5.0, 9.0, 11.0, 20.0));
+INSTANTIATE_TEST_SUITE_P(Planes, PlaneJudgeSlope, testing::Values(0.0, 5.0, 9.0, 11.0, 20.0));
 
-TEST(PlaneFitSelection, CirclesLieInTheWorldWhereTheyAre) {
+TEST(PlaneJudge, CirclesLieInTheWorldWhereTheyAre) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const Eigen::Isometry3d T = camera_at(40, -25, 20, 6, 4, 0.8);
   cv::Mat depth = plane_seen(k, T, 0, 0, 0);
@@ -54,12 +57,12 @@ TEST(PlaneFitSelection, CirclesLieInTheWorldWhereTheyAre) {
   EXPECT_NEAR(selection.largest->p_world.z(), 0, 1e-3);
   EXPECT_LE(selection.largest->radius_m, 4 - 0.6 + 1e-6) << "less the disc";
   EXPECT_GT(selection.largest->radius_m, 4 - 0.6 - 0.45);
-  const auto there = SiteSelector(planes(), k).circle_at(selection, selection.largest->centre_px);
+  const auto there = circle_at(selection, k, selection.largest->centre_px);
   ASSERT_TRUE(there);
   EXPECT_NEAR(there->radius_m, selection.largest->radius_m, 0.1);
 }
 
-TEST(PlaneFitSelection, WiresMakeTheGroundBelowThemUnsafe) {
+TEST(PlaneJudge, WiresMakeTheGroundBelowThemUnsafe) {
   const PinholeIntrinsics k = camera_of(353, 353);
   cv::Mat depth = scenes::level_ground(k, 20);
   depth.col(276).setTo(10);  // 2.27 m right of the camera and 10 m up; seen where the ground is 4.55 m right
@@ -69,7 +72,7 @@ TEST(PlaneFitSelection, WiresMakeTheGroundBelowThemUnsafe) {
   EXPECT_EQ(selection.safe.at<std::uint8_t>(176, 226), 0);
 }
 
-TEST(PlaneFitSelection, UnknownAndUnconfidentGroundIsAHazard) {
+TEST(PlaneJudge, UnknownAndUnconfidentGroundIsAHazard) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const cv::Mat depth = scenes::level_ground(k, 20);
   cv::Mat confidence(depth.size(), CV_32FC1, cv::Scalar(0.9));
@@ -82,7 +85,7 @@ TEST(PlaneFitSelection, UnknownAndUnconfidentGroundIsAHazard) {
   EXPECT_NEAR(selection.sites.front().confidence, 0.9, 0.01);
 }
 
-TEST(PlaneFitSelection, RoofsAreNotGround) {
+TEST(PlaneJudge, RoofsAreNotGround) {
   const PinholeIntrinsics k = camera_of(352, 352);
   cv::Mat depth = scenes::level_ground(k, 30);
   scenes::change(depth, k, 26, [](double x, double y) { return std::abs(x) < 4.5 && std::abs(y) < 4.5; }, 26);
@@ -92,6 +95,43 @@ TEST(PlaneFitSelection, RoofsAreNotGround) {
   EXPECT_EQ(warned.safe.at<std::uint8_t>(176, 300), 255);
   config.plane_fit.platform_height_m = 0;
   EXPECT_EQ(SiteSelector(config, k).select(depth, camera_at(0, 0, 30)).safe.at<std::uint8_t>(176, 176), 255);
+}
+
+TEST(PlaneJudge, GroundBelowACrownBesideTheImageIsNotSafe) {
+  // The crown itself is not in the image, so nothing but its absence can be told.
+  const PinholeIntrinsics k = camera_of(352, 352);
+  SiteSelectionConfig config = planes();
+  const cv::Mat depth = scenes::level_ground(k, 12);
+  const auto safe_half_m = [&] {
+    const SiteSelection s = SiteSelector(config, k).select(depth, scenes::attitude(0, 0));
+    return std::sqrt(cv::countNonZero(s.safe)) / 2 * 12 / 440;
+  };
+  EXPECT_NEAR(safe_half_m(), 0.4 * 12 - 0.6, 0.3);
+  config.plane_fit.column_m = 4;
+  EXPECT_NEAR(safe_half_m(), 0.4 * (12 - 4), 0.2);
+}
+
+TEST(PlaneJudge, HazardsHaveToFitTheRasterAndMakeGroundUnsafe) {
+  const PinholeIntrinsics k = camera_of(352, 352);
+  const Eigen::Isometry3d T = camera_at(3, -2, 20);
+  const SiteSelector selector(planes(), k);
+  const SiteSelection seen = selector.look(scenes::level_ground(k, 20), T);
+  cv::Mat hazards = cv::Mat::zeros(seen.ground.raster.size(), CV_8UC1);
+  const SiteSelection plain = selector.decide(seen, hazards, T);
+  int column = 0;
+  int row = 0;
+  ASSERT_TRUE(seen.ground.raster.cell_at(4, -2, column, row));
+  ASSERT_EQ(plain.ground.safe.at<std::uint8_t>(row, column), 255);
+  hazards.at<std::uint8_t>(row, column) = 1;
+  const SiteSelection told = selector.decide(seen, hazards, T);
+  EXPECT_EQ(told.ground.safe.at<std::uint8_t>(row, column), 0);
+  EXPECT_EQ(told.ground.safe.at<std::uint8_t>(row, column + 1), 0) << "guard_m";
+  EXPECT_LT(told.largest->radius_m, plain.largest->radius_m);
+  EXPECT_THROW(selector.decide(seen, hazards.rowRange(1, hazards.rows), T), std::invalid_argument);
+  EXPECT_THROW(selector.decide(seen, cv::Mat::zeros(hazards.size(), CV_32FC1), T), std::invalid_argument);
+  const SiteSelection nothing = selector.look(cv::Mat::zeros(k.size(), CV_32FC1), T);
+  EXPECT_THROW(selector.decide(nothing, hazards, T), std::invalid_argument) << "no raster at all";
+  EXPECT_EQ(selector.decide(nothing, {}, T).status, SiteStatus::kNoDepth);
 }
 
 struct Box {
@@ -119,7 +159,7 @@ cv::Mat boxes_seen(const PinholeIntrinsics& k, const Eigen::Isometry3d& T, const
   return depth;
 }
 
-TEST(PlaneFitSelection, ARoofWhoseParapetsHideWhatIsBehindThemIsNoGround) {
+TEST(PlaneJudge, ARoofWhoseParapetsHideWhatIsBehindThemIsNoGround) {
   const PinholeIntrinsics k = camera_of(352, 352);
   // 8 m high, parapets of 0.4 m, something on top, the eastern end outside the image. From 20 m up only the ground
   // behind the western edge is seen within a few metres.
@@ -143,7 +183,7 @@ TEST(PlaneFitSelection, ARoofWhoseParapetsHideWhatIsBehindThemIsNoGround) {
   }
 }
 
-TEST(PlaneFitSelection, SitesAreSeparateAndTheBestScoreComesFirst) {
+TEST(PlaneJudge, SitesAreSeparateAndTheBestScoreComesFirst) {
   const PinholeIntrinsics k = camera_of(352, 352);
   cv::Mat depth = scenes::level_ground(k, 40);
   depth(cv::Rect(150, 0, 12, 352)).setTo(36);  // a wall

@@ -1,3 +1,5 @@
+#include "infer/landing/derivatives/derivative_judge.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,7 +45,7 @@ TEST_P(SlopeClass, IsDecidedExactly) {
 }
 INSTANTIATE_TEST_SUITE_P(Planes, SlopeClass, testing::Values(0.0, 5.0, 9.0, 9.9, 10.1, 11.0, 20.0));
 
-TEST(SiteSelector, LevelGroundIsSafeUnderAnyRollAndPitch) {
+TEST(DerivativeJudge, LevelGroundIsSafeUnderAnyRollAndPitch) {
   const PinholeIntrinsics k = camera_of(352, 352);
   SiteSelectionConfig config = derivatives();
   config.derivatives.erode_px = config.derivatives.dilate_px =
@@ -64,14 +66,14 @@ TEST(SiteSelector, LevelGroundIsSafeUnderAnyRollAndPitch) {
   }
 }
 
-TEST(SiteSelector, SlopeIsMeasuredAgainstTheHorizonNotTheCamera) {
+TEST(DerivativeJudge, SlopeIsMeasuredAgainstTheHorizonNotTheCamera) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const Eigen::Matrix3d R = attitude(to_radians(15), 0);
   // Perpendicular to the camera, so 15 degrees steep in the world.
   EXPECT_EQ(SiteSelector(derivatives(), k).select(level_ground(k, 20), R).status, SiteStatus::kNoFlatArea);
 }
 
-TEST(SiteSelector, RadiusFollowsFromDepthFocalLengthAndPixels) {
+TEST(DerivativeJudge, RadiusFollowsFromDepthFocalLengthAndPixels) {
   const PinholeIntrinsics k = camera_of(353, 353);
   const double z_m = 20;
   cv::Mat depth = level_ground(k, z_m);
@@ -95,7 +97,7 @@ TEST(SiteSelector, RadiusFollowsFromDepthFocalLengthAndPixels) {
   EXPECT_NEAR(site.radius_m, site.depth_m / 440 * site.radius_px, 1e-6);
 }
 
-TEST(SiteSelector, CircleOfASquareFieldIsItsIncircle) {
+TEST(DerivativeJudge, CircleOfASquareFieldIsItsIncircle) {
   const PinholeIntrinsics k = camera_of(352, 300);
   SiteSelectionConfig config = derivatives();
   config.derivatives.erode_px = config.derivatives.dilate_px = 1;
@@ -109,7 +111,7 @@ TEST(SiteSelector, CircleOfASquareFieldIsItsIncircle) {
   EXPECT_NEAR(selection.largest->radius_m, 22.0 / 440 * 58.5, 1e-3);
 }
 
-TEST(SiteSelector, ImageBorderIsUnsafe) {
+TEST(DerivativeJudge, ImageBorderIsUnsafe) {
   const PinholeIntrinsics k = camera_of(201, 151);
   const SiteSelection selection =
       SiteSelector(derivatives(), k).select(level_ground(k, 44), kDown);  // baseline 5 px
@@ -118,7 +120,7 @@ TEST(SiteSelector, ImageBorderIsUnsafe) {
   EXPECT_NEAR(selection.largest->radius_px, (151 - 2 * 7) / 2.0, 0.01);
 }
 
-TEST(SiteSelector, BoxOfThirtyCentimetresIsUnsafeFromEveryHeight) {
+TEST(DerivativeJudge, BoxOfThirtyCentimetresIsUnsafeFromEveryHeight) {
   for (const double z_m : {8.0, 15.0, 30.0}) {
     const PinholeIntrinsics k = camera_of(352, 352);
     cv::Mat depth = level_ground(k, z_m);
@@ -135,7 +137,7 @@ TEST(SiteSelector, BoxOfThirtyCentimetresIsUnsafeFromEveryHeight) {
   }
 }
 
-TEST(SiteSelector, ThinPoleIsUnsafe) {
+TEST(DerivativeJudge, ThinPoleIsUnsafe) {
   const PinholeIntrinsics k = camera_of(352, 352);
   cv::Mat depth = level_ground(k, 20);
   depth.at<float>(150, 190) = 17;  // one pixel, 4.5 cm wide, 3 m tall
@@ -146,7 +148,7 @@ TEST(SiteSelector, ThinPoleIsUnsafe) {
   EXPECT_GT(distance_px, selection.largest->radius_px);
 }
 
-TEST(SiteSelector, NoisyLevelGroundIsStillASite) {
+TEST(DerivativeJudge, NoisyLevelGroundIsStillASite) {
   for (const double z_m : {8.0, 15.0, 30.0}) {
     const PinholeIntrinsics k = camera_of(352, 352);
     const SiteSelection selection =
@@ -156,7 +158,7 @@ TEST(SiteSelector, NoisyLevelGroundIsStillASite) {
   }
 }
 
-TEST(SiteSelector, ReasonsAreSaid) {
+TEST(DerivativeJudge, ReasonsAreSaid) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const SiteSelector selector(derivatives(), k);
   const SiteSelection nothing = selector.select(cv::Mat::zeros(352, 352, CV_32FC1), kDown);
@@ -177,14 +179,14 @@ TEST(SiteSelector, ReasonsAreSaid) {
   EXPECT_EQ(describe(selector.select(level_ground(k, 15), kDown)), "landing site of 5.4 m");
 }
 
-TEST(SiteSelector, MarginAndErosionTakeTheirPart) {
+TEST(DerivativeJudge, MarginAndErosionTakeTheirPart) {
   const PinholeIntrinsics k = camera_of(352, 352);
   SiteSelectionConfig config = derivatives();
   const double plain_m = SiteSelector(config, k).select(level_ground(k, 20), kDown).largest->radius_m;
-  config.margin_m = 0.7;
+  config.rules.margin_m = 0.7;
   EXPECT_NEAR(SiteSelector(config, k).select(level_ground(k, 20), kDown).largest->radius_m, plain_m - 0.7,
               1e-4);
-  config.margin_m = 0;
+  config.rules.margin_m = 0;
   config.derivatives.erode_px = 23;
   config.derivatives.dilate_px = 3;
   cv::Mat boxed = level_ground(k, 20);
@@ -198,7 +200,7 @@ TEST(SiteSelector, MarginAndErosionTakeTheirPart) {
   EXPECT_EQ(cv::countNonZero(inflated.safe & ~opened.safe), 0);
 }
 
-TEST(SiteSelector, NothingThatWasUnsafeBecomesSafeByOpening) {
+TEST(DerivativeJudge, NothingThatWasUnsafeBecomesSafeByOpening) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const cv::Mat depth = scenes::with_noise(level_ground(k, 30), 0.06, 5);
   SiteSelectionConfig config = derivatives();
@@ -208,23 +210,36 @@ TEST(SiteSelector, NothingThatWasUnsafeBecomesSafeByOpening) {
   EXPECT_EQ(cv::countNonZero(opened.safe & ~raw.safe), 0);
 }
 
-TEST(SiteSelector, CircleAtAPixel) {
+TEST(DerivativeJudge, CircleAtAPixel) {
   const PinholeIntrinsics k = camera_of(352, 352);
   const SiteSelector selector(derivatives(), k);
   const SiteSelection selection = selector.select(level_ground(k, 20), kDown);
-  const auto centre = selector.circle_at(selection, {175.5, 175.5});
+  const auto centre = circle_at(selection, k, {175.5, 175.5});
   ASSERT_TRUE(centre);
   EXPECT_NEAR(centre->radius_m, selection.largest->radius_m, 0.1);
-  const auto aside = selector.circle_at(selection, {80, 175});
+  const auto aside = circle_at(selection, k, {80, 175});
   ASSERT_TRUE(aside);
   EXPECT_LT(aside->radius_m, centre->radius_m);
-  EXPECT_FALSE(selector.circle_at(selection, {2, 2}));
-  EXPECT_FALSE(selector.circle_at(selection, {-20, 100}));
-  EXPECT_FALSE(selector.circle_at(selection, {400, 100}));
-  EXPECT_FALSE(selector.circle_at(selection, {std::nan(""), 100}));
+  EXPECT_FALSE(circle_at(selection, k, {2, 2}));
+  EXPECT_FALSE(circle_at(selection, k, {-20, 100}));
+  EXPECT_FALSE(circle_at(selection, k, {400, 100}));
+  EXPECT_FALSE(circle_at(selection, k, {std::nan(""), 100}));
 }
 
-TEST(SiteSelector, GroundBelowAWireIsUnsafe) {
+TEST(DerivativeJudge, HazardsAreRefusedBecauseThereIsNoRasterForThem) {
+  const PinholeIntrinsics k = camera_of(352, 352);
+  const SiteSelector selector(derivatives(), k);
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  T_world_camera.linear() = kDown;
+  const SiteSelection seen = selector.look(level_ground(k, 20), T_world_camera);
+  EXPECT_TRUE(seen.ground.empty());
+  EXPECT_EQ(seen.status, SiteStatus::kNoDepth);
+  EXPECT_THROW(selector.decide(seen, cv::Mat::zeros(352, 352, CV_8UC1), T_world_camera),
+               std::invalid_argument);
+  EXPECT_TRUE(selector.decide(seen, {}, T_world_camera).found());
+}
+
+TEST(DerivativeJudge, GroundBelowAWireIsUnsafe) {
   const PinholeIntrinsics k = camera_of(353, 353);
   cv::Mat depth = level_ground(k, 20);
   depth.col(276).setTo(
@@ -241,7 +256,7 @@ TEST(SiteSelector, GroundBelowAWireIsUnsafe) {
   EXPECT_LT(std::abs(paper.largest->p_level.x() - wire_x_m), paper.largest->radius_m);
 }
 
-TEST(SiteSelector, WeakSpecksAreNoiseAndStrongOrLongOnesAreNot) {
+TEST(DerivativeJudge, WeakSpecksAreNoiseAndStrongOrLongOnesAreNot) {
   const PinholeIntrinsics k = camera_of(353, 353);
   const auto safe_at_centre = [&](int width_px, int height_px, double bump_m) {
     cv::Mat depth = level_ground(k, 20);  // 4.5 cm a pixel
