@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "foundation/errors.hpp"
+#include "sensors/messages/livox_decoder.hpp"
 #include "tests/sensors/messages/cloud_message.hpp"
 #include "tests/sensors/messages/decoding.hpp"
 

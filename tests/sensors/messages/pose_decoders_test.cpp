@@ -1,3 +1,5 @@
+#include "sensors/messages/pose_decoders.hpp"
+
 #include <cmath>
 #include <limits>
 

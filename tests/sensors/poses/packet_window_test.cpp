@@ -25,8 +25,7 @@ std::vector<std::int64_t> ends_ms(const std::vector<WorldPacketPtr>& packets) {
 TEST(PacketWindow, GivesTheNewestPastFirstAndOneMoreToHoldOut) {
   PacketWindow window(1000);
   for (const int end : {1000, 1100, 1200, 1300, 1400, 1500}) window.add(packet_of(end));
-  EXPECT_EQ(ends_ms(window.before(1450 * kMs, 0.2, 10)),
-            (std::vector<std::int64_t>{1400, 1300, 1200}));
+  EXPECT_EQ(ends_ms(window.before(1450 * kMs, 0.2, 10)), (std::vector<std::int64_t>{1400, 1300, 1200}));
   EXPECT_EQ(ends_ms(window.before(1400 * kMs, 0.1, 10)), (std::vector<std::int64_t>{1400, 1300}));
   EXPECT_EQ(ends_ms(window.after(1400 * kMs)), (std::vector<std::int64_t>{1500}));
   EXPECT_EQ(ends_ms(window.before(1450 * kMs, 5, 0.3)), (std::vector<std::int64_t>{1400, 1300}));
