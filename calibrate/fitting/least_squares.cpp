@@ -24,7 +24,8 @@ std::optional<double> minimise(ceres::Problem& problem) {
   silence_glog();
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // no BLAS: its sums depend on its threads
+  // No BLAS: its sums depend on its threads.
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   options.num_threads = 1;
   options.max_num_iterations = 50;
   options.function_tolerance = 1e-10;

@@ -4,6 +4,7 @@
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/problem.h>
+
 #include <gtest/gtest.h>
 
 #include "calibrate/fitting/pose_block.hpp"
@@ -77,8 +78,9 @@ TEST(LeastSquares, ADirectionThatIsFreeHasNoCovariance) {
   PoseBlock pose = pose_block(measured_pose());
   ceres::Problem problem;
   problem.AddParameterBlock(pose.data(), 7, new PoseManifold);
-  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<MeasuredTranslation, 3, 7>(new MeasuredTranslation),
-                           nullptr, pose.data());
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<MeasuredTranslation, 3, 7>(new MeasuredTranslation), nullptr,
+      pose.data());
   EXPECT_FALSE(covariance(problem, {pose.data()}));
 }
 

@@ -62,7 +62,8 @@ LidarBoard start() {
 /// How far the fit is off: (translation, rotation) in the board's frame, range offset.
 Eigen::Matrix<double, 7, 1> error_of(const LidarBoard& fitted) {
   Eigen::Matrix<double, 7, 1> error;
-  error << motion_vector(board_pose().inverse() * fitted.T_lidar_board), fitted.range_offset_m - kRangeOffset_m;
+  error << motion_vector(board_pose().inverse() * fitted.T_lidar_board),
+      fitted.range_offset_m - kRangeOffset_m;
   return error;
 }
 

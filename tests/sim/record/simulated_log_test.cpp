@@ -93,18 +93,19 @@ std::int64_t stamp_ns(const Message& message) {
 TEST_F(FlightRecorderTest, SameSeedGivesTheSameBytesWithAnyNumberOfThreads) {
   record(config({"recorder.threads=1"}), "one");
   record(config({"recorder.threads=3"}), "three");
-  EXPECT_EQ(test::file_text(bag_path("one")), test::file_text(bag_path("three")));
+  EXPECT_EQ(alight::test::file_text(bag_path("one")), alight::test::file_text(bag_path("three")));
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(truth_path("one"))) {
     const fs::path relative = fs::relative(entry.path(), truth_path("one"));
     if (!entry.is_regular_file() || relative == "truth.yaml")
       continue;  // that one holds the number of threads
-    EXPECT_EQ(test::file_text(entry.path()), test::file_text(truth_path("three") / relative)) << relative;
+    EXPECT_EQ(alight::test::file_text(entry.path()), alight::test::file_text(truth_path("three") / relative))
+        << relative;
     ++files;
   }
   EXPECT_EQ(files, 20U + 20U + 2U);
   record(config({"flights.0.seed=8"}), "other");
-  EXPECT_NE(test::file_text(bag_path("one")), test::file_text(bag_path("other")));
+  EXPECT_NE(alight::test::file_text(bag_path("one")), alight::test::file_text(bag_path("other")));
 }
 
 TEST_F(FlightRecorderTest, RatesAndCountsAreAsConfigured) {
@@ -181,7 +182,7 @@ Trajectory read_poses(const fs::path& bag) {
 TEST_F(FlightRecorderTest, AReaderGetsTheTrueTrajectory) {
   record(config({"sensors.noise=off"}));
   const Trajectory trajectory = read_poses(bag_path());
-  std::istringstream rows(test::file_text(truth_path() / "trajectory.csv"));
+  std::istringstream rows(alight::test::file_text(truth_path() / "trajectory.csv"));
   std::string row;
   std::getline(rows, row);
   EXPECT_EQ(row, "t_ns,x_m,y_m,z_m,qw,qx,qy,qz");
@@ -255,12 +256,12 @@ TEST_F(FlightRecorderTest, RawImagesAreTheOtherFormat) {
 TEST_F(FlightRecorderTest, OverwritesNothingAndLeavesNothingBehind) {
   const SimConfig c = config({"flights.0.plan.duration_s=0.2"});
   record(c);
-  const std::string before = test::file_text(bag_path());
+  const std::string before = alight::test::file_text(bag_path());
   EXPECT_THROW(FlightRecorder(c, folder_ / "out").refuse_existing(), DataError);
   EXPECT_THROW(record(c), DataError);
   fs::remove_all(truth_path());
   EXPECT_THROW(record(c), DataError);
-  EXPECT_EQ(test::file_text(bag_path()), before);
+  EXPECT_EQ(alight::test::file_text(bag_path()), before);
   for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
     EXPECT_EQ(entry.path().filename(), "quick.bag");
   }
@@ -280,7 +281,7 @@ TEST_F(FlightRecorderTest, RefusesRigsThatItCannotFly) {
 }
 
 TEST_F(FlightRecorderTest, RosOwnPythonReadsTheBag) {
-  if (!test::python_has("rosbag")) GTEST_SKIP() << "Debian's python3-rosbag is not installed";
+  if (!alight::test::python_has("rosbag")) GTEST_SKIP() << "Debian's python3-rosbag is not installed";
   record(config({"flights.0.plan.duration_s=0.4", "recorder.compression=lz4"}));
   const fs::path script = folder_ / "read.py";
   std::ofstream(script) << R"(
@@ -300,8 +301,8 @@ for topic, message, t in bag.read_messages():
     points += sum(1 for p in message.points if p.x > 5)
 print(points)
 )";
-  const test::CommandRun read =
-      test::run_command("/usr/bin/python3 " + script.string() + " " + bag_path().string());
+  const alight::test::CommandRun read =
+      alight::test::run_command("/usr/bin/python3 " + script.string() + " " + bag_path().string());
   ASSERT_EQ(read.exit_code, 0) << read.out;
   EXPECT_GT(std::stoi(read.out), 20'000);
 }
