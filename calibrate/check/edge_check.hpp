@@ -7,7 +7,7 @@
 
 namespace alight {
 
-/// How the LiDAR's mounting is searched for around the rig's.
+/// How the LiDAR's extrinsics are searched for around the rig's.
 struct EdgeCheckConfig {
   double window_s = 0.5;    ///< LiDAR edges measured within half of it of an image are held against it
   double max_turn_deg = 2;  ///< searched about each axis
@@ -28,7 +28,7 @@ struct Betterment {
 struct EdgeCheck {
   int edges = 0;
   int views = 0;
-  double score = 0;       ///< at the rig's mounting, 1 is no better than elsewhere in the images
+  double score = 0;       ///< at the rig's extrinsics, 1 is no better than elsewhere in the images
   double best_score = 0;  ///< after the turn
   double chance = 0;      ///< the mean of the search away from the best
   double stands_out = 0;  ///< (best - chance) over the standard deviation of those

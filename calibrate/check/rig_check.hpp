@@ -36,7 +36,7 @@ enum class RigVerdict { kGood, kMoved, kCannotTell };
 /// "good", "moved", "cannot tell"
 const char* name(RigVerdict verdict);
 
-/// One axis of a mounting.
+/// One axis of a sensor's extrinsics.
 struct AxisCheck {
   std::string name;    ///< "LiDAR turn about x"
   std::string unit;    ///< "deg", "m"

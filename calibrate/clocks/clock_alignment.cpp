@@ -42,7 +42,7 @@ ClockOffset search(const BlockScores& scores, const ClockAlignmentConfig& config
   return result;
 }
 
-/// Of all axes together, each without its mean (a mounting that is wrong adds one).
+/// Of all axes together, each without its mean (wrong extrinsics add one).
 double correlation(const std::vector<ViewTurn>& turns) {
   Vector3d mean_seen = Vector3d::Zero();
   Vector3d mean_posed = Vector3d::Zero();

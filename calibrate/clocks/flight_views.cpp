@@ -15,7 +15,7 @@
 namespace alight {
 namespace {
 
-void require_mounting(const Rig& rig) {
+void require_extrinsics(const Rig& rig) {
   if (!rig.lidar0) throw ConfigError("rig: has no lidar0; there is no LiDAR to hold against the cameras");
   if (!rig.cam0.T_camera_imu)
     throw ConfigError(
@@ -84,7 +84,7 @@ void bind(Binder& b, FlightViewsConfig& c) {
 FlightViews read_flight_views(const std::filesystem::path& log, const Rig& rig, const LogConfig& log_config,
                               const FlightViewsConfig& config,
                               const std::function<void(std::int64_t, std::int64_t)>& progress) {
-  require_mounting(rig);
+  require_extrinsics(rig);
   FlightLog reader(log, rig, log_config);
   const double duration_s = to_seconds(reader.summary().end_ns - reader.summary().begin_ns);
   Collector collector(rig, config, std::max(config.view_step_s, duration_s / config.max_views));

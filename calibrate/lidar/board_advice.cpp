@@ -28,7 +28,7 @@ const std::array<Tilt, 5> kTilts = {Tilt{"facing the camera", Vector3d::UnitX(),
 const std::array<const char*, 3> kColumns = {"left", "middle", "right"};
 const std::array<const char*, 3> kRows = {"upper", "central", "lower"};
 
-/// The inverse of the mounting's covariance with one more board.
+/// The extrinsics' covariance with one more board.
 Matrix6d with_board(const Matrix6d& covariance, const Matrix6d& information) {
   return (covariance.inverse() + information).inverse();
 }

@@ -29,7 +29,7 @@ void require_spread(const std::vector<BoardView>& views, const std::vector<char>
   }
   if (widest_deg >= config.min_tilt_spread_deg) return;
   throw DataError(fmt::format(
-      "boards all parallel (within {:.1f} deg, at least {:.0f} are needed): the mounting is not well "
+      "boards all parallel (within {:.1f} deg, at least {:.0f} are needed): the extrinsics are not well "
       "observable - turns about axes in the board's plane (yaw and pitch) cannot be told from shifts; record "
       "more boards, tilted by 20 to 40 deg to the left, right, front and back",
       widest_deg, config.min_tilt_spread_deg));
@@ -45,7 +45,7 @@ void require_observable(const Extrinsics& result, const ExtrinsicsConfig& config
   const double turn_deg = to_degrees(sigma[3 + turn]);
   if (sigma[shift] <= config.max_translation_sigma_m && turn_deg <= config.max_rotation_sigma_deg) return;
   throw DataError(
-      fmt::format("the mounting is not observable well enough: 1 sigma of the shift along the camera's {} is "
+      fmt::format("the extrinsics are not observable well enough: 1 sigma of the shift along the camera's {} is "
                   "{:.1f} mm (at most {:.1f}), of the turn about its {} {:.3f} deg (at most {:.3f}); record "
                   "more boards, at other places of the image, nearer, and tilted in other directions",
                   kAxes[shift], 1e3 * sigma[shift], 1e3 * config.max_translation_sigma_m, kAxes[turn],
@@ -57,7 +57,7 @@ void require_distinct(const Extrinsics& result, const ExtrinsicsConfig& config) 
   const Alternative& other = result.alternatives.front();
   if (other.rmse_px >= config.min_distinctness * std::max(result.rmse_px, 0.2)) return;
   throw DataError(fmt::format(
-      "two mountings explain the boards: RMSE {:.2f} px and {:.2f} px; {:.0f} deg apart. The board's two "
+      "two extrinsics explain the boards: RMSE {:.2f} px and {:.2f} px; {:.0f} deg apart. The board's two "
       "ends look alike and all boards are at nearly one place: record boards farther apart in the image, or "
       "use a board whose numbers of corners are one even and one odd",
       result.rmse_px, other.rmse_px,
@@ -75,13 +75,13 @@ void require_enough(const std::vector<char>& used, const ExtrinsicsConfig& confi
 }
 
 /// Boards that do not fit are left out one by one, the worst first. @returns the minima of the others, best first
-std::vector<MountingSearch::Minimum> search_without_outliers(const MountingSearch& search,
-                                                             const ExtrinsicsConfig& config,
-                                                             std::vector<char>& used) {
+std::vector<ExtrinsicsSearch::Minimum> search_without_outliers(const ExtrinsicsSearch& search,
+                                                               const ExtrinsicsConfig& config,
+                                                               std::vector<char>& used) {
   require_enough(used, config);
-  std::vector<MountingSearch::Minimum> found = search.minima(used);
+  std::vector<ExtrinsicsSearch::Minimum> found = search.minima(used);
   if (found.empty())
-    throw DataError("no mounting explains even one board; is it the same board for both sensors?");
+    throw DataError("no extrinsics explain even one board; is it the same board for both sensors?");
   for (;;) {
     const Assignment& assignment = found.front().assignment;
     std::size_t worst = 0;
@@ -117,8 +117,8 @@ double rmse_of_used(const Assignment& assignment, const std::vector<char>& used)
   return std::sqrt(squares / count(used));
 }
 
-/// Of the minima behind the first, those that are another mounting; best first.
-std::vector<Alternative> alternatives(const std::vector<MountingSearch::Minimum>& found,
+/// Of the minima behind the first, those that are other extrinsics; best first.
+std::vector<Alternative> alternatives(const std::vector<ExtrinsicsSearch::Minimum>& found,
                                       const std::vector<char>& used) {
   constexpr double kSame_deg = 2;
   constexpr double kSame_m = 0.1;
@@ -146,7 +146,7 @@ void bind(Binder& b, ExtrinsicsConfig& c) {
           positive());
   b.field("max_translation_sigma_m", c.max_translation_sigma_m, "a result that is less certain is refused",
           positive());
-  b.field("min_distinctness", c.min_distinctness, "RMSE of the second best mounting over that of the best",
+  b.field("min_distinctness", c.min_distinctness, "RMSE of the second best extrinsics over that of the best",
           at_least(1));
   b.field("range_bias_m", c.range_bias_m, "1 sigma of the LiDAR's systematic range error", positive());
   b.field("angle_bias_deg", c.angle_bias_deg, "1 sigma of its systematic direction error at a board",
@@ -156,9 +156,9 @@ void bind(Binder& b, ExtrinsicsConfig& c) {
 
 Extrinsics solve_extrinsics(const Chessboard& board, const std::vector<BoardView>& views,
                             const PinholeIntrinsics& intrinsics, const ExtrinsicsConfig& config) {
-  const MountingSearch search(board, views, intrinsics, config);
+  const ExtrinsicsSearch search(board, views, intrinsics, config);
   std::vector<char> used(views.size(), 1);
-  const std::vector<MountingSearch::Minimum> found = search_without_outliers(search, config, used);
+  const std::vector<ExtrinsicsSearch::Minimum> found = search_without_outliers(search, config, used);
   require_spread(views, used, config);
   const JointResult& joint = found.front().joint;
   Extrinsics result;

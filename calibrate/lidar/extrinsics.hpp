@@ -21,7 +21,7 @@ struct ExtrinsicsConfig {
   double min_tilt_spread_deg = 15;  ///< between the two most different boards
   double max_rotation_sigma_deg = 0.1;
   double max_translation_sigma_m = 0.01;
-  double min_distinctness = 2;  ///< RMSE of the second best mounting over that of the best
+  double min_distinctness = 2;  ///< RMSE of the second best extrinsics over that of the best
   double range_bias_m = 0.01;   ///< 1 sigma of a LiDAR's systematic range error, and again of a board's own
   double angle_bias_deg =
       0.033;  ///< 1 sigma of its systematic direction error at a board: Livox promises 0.1
@@ -48,7 +48,7 @@ struct BoardResult {
   std::string reason;  ///< why not
 };
 
-/// A mounting that also explains the boards, but worse.
+/// Extrinsics that also explain the boards, but worse.
 struct Alternative {
   Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();
   double rmse_px = 0;
@@ -69,9 +69,9 @@ struct Extrinsics {
   Vector6d sigma() const { return covariance.diagonal().cwiseSqrt(); }
 };
 
-/// T_camera_lidar from boards that both sensors saw; no start value. Each board alone gives the mounting by a PnP for
-/// each order that its corners could have; the mounting that most boards agree with is the start (RANSAC whose samples
-/// are boards, all of them tried). Levenberg-Marquardt then moves the mounting, every board within what the LiDAR saw
+/// T_camera_lidar from boards that both sensors saw; no start value. Each board alone gives T_camera_lidar by a PnP for
+/// each order that its corners could have; the one that most boards agree with is the start (RANSAC whose samples are
+/// boards, all of them tried). Levenberg-Marquardt then moves the extrinsics, every board within what the LiDAR saw
 /// of it, and the LiDAR's range offset together. Restarts from the other candidates find other minima.
 /// @param intrinsics of the undistorted pixels
 /// @throws DataError too few boards, all parallel, not observable, ambiguous: each with what to do

@@ -39,7 +39,7 @@ std::vector<Eigen::Isometry3d> board_poses(const Chessboard& board, const BoardV
   return poses;
 }
 
-/// Sum of squared reprojection errors of corners `turned` by a mounting, in pixels.
+/// Sum of squared reprojection errors of corners, in pixels.
 double squared_error(const Chessboard& board, const BoardView& view, const Eigen::Isometry3d& T_camera_board,
                      const PinholeIntrinsics& intrinsics) {
   double sum = 0;
@@ -53,7 +53,7 @@ double squared_error(const Chessboard& board, const BoardView& view, const Eigen
 
 }  // namespace
 
-bool MountingSearch::possible(const BoardView& view, std::size_t turn) const {
+bool ExtrinsicsSearch::possible(const BoardView& view, std::size_t turn) const {
   // A turn by 180 deg swaps the squares' colours where rows + columns is odd; one by 90 deg where they are even too.
   bool swaps = false;
   if (turns_.size() == 2) {
@@ -64,7 +64,7 @@ bool MountingSearch::possible(const BoardView& view, std::size_t turn) const {
   return (view.camera_first_dark == view.lidar_first_dark) != swaps;
 }
 
-std::vector<Eigen::Isometry3d> MountingSearch::candidates() const {
+std::vector<Eigen::Isometry3d> ExtrinsicsSearch::candidates() const {
   std::vector<Eigen::Isometry3d> result;
   for (const BoardView& view : views_) {
     for (const Eigen::Isometry3d& T_camera_board : board_poses(board_, view, intrinsics_)) {
@@ -77,7 +77,7 @@ std::vector<Eigen::Isometry3d> MountingSearch::candidates() const {
   return result;
 }
 
-Assignment MountingSearch::assign(const Eigen::Isometry3d& T_camera_lidar, double truncate_px) const {
+Assignment ExtrinsicsSearch::assign(const Eigen::Isometry3d& T_camera_lidar, double truncate_px) const {
   Assignment result;
   for (const BoardView& view : views_) {
     double best = std::numeric_limits<double>::infinity();
@@ -98,7 +98,7 @@ Assignment MountingSearch::assign(const Eigen::Isometry3d& T_camera_lidar, doubl
 }
 
 /// Corners against the board's plane where the camera alone puts it, all boards together.
-double MountingSearch::camera_noise_px() const {
+double ExtrinsicsSearch::camera_noise_px() const {
   double sum = 0;
   double freedom = 0;
   for (const BoardView& view : views_) {
@@ -112,8 +112,8 @@ double MountingSearch::camera_noise_px() const {
   return std::max(config_.min_camera_noise_px, std::sqrt(sum / std::max(1.0, freedom)));
 }
 
-JointResult MountingSearch::refine(const Eigen::Isometry3d& start, const Assignment& assignment,
-                                   const std::vector<char>& used) const {
+JointResult ExtrinsicsSearch::refine(const Eigen::Isometry3d& start, const Assignment& assignment,
+                                     const std::vector<char>& used) const {
   std::vector<JointBoard> boards;
   for (std::size_t i = 0; i < views_.size(); ++i) {
     if (used[i] == 0) continue;
@@ -129,7 +129,7 @@ JointResult MountingSearch::refine(const Eigen::Isometry3d& start, const Assignm
 }
 
 /// The minima that the best candidates lead to, best first.
-std::vector<MountingSearch::Minimum> MountingSearch::minima(const std::vector<char>& used) const {
+std::vector<ExtrinsicsSearch::Minimum> ExtrinsicsSearch::minima(const std::vector<char>& used) const {
   constexpr double kTruncate_px = 40;
   constexpr std::size_t kRestarts = 6;
   std::map<std::vector<std::size_t>, std::pair<double, Eigen::Isometry3d>> starts;  // by assignment

@@ -16,21 +16,21 @@ struct Assignment {
   double score = 0;  ///< sum of squares, each board's truncated
 };
 
-/// Mountings that explain boards, found without a start value. Everything given must outlive the search.
-class MountingSearch {
+/// Extrinsics that explain boards, found without a start value. Everything given must outlive the search.
+class ExtrinsicsSearch {
  public:
   struct Minimum {
     JointResult joint;
     Assignment assignment;
   };
 
-  MountingSearch(const Chessboard& board, const std::vector<BoardView>& views,
-                 const PinholeIntrinsics& intrinsics, const ExtrinsicsConfig& config)
+  ExtrinsicsSearch(const Chessboard& board, const std::vector<BoardView>& views,
+                   const PinholeIntrinsics& intrinsics, const ExtrinsicsConfig& config)
       : board_(board), views_(views), intrinsics_(intrinsics), config_(config), turns_(board_turns(board)) {}
 
   /// The minima that the best candidates lead to, best first. @param used of each view, not 0 where it counts
   std::vector<Minimum> minima(const std::vector<char>& used) const;
-  /// The best order of corners of each board for a mounting. @param truncate_px no board scores worse than this
+  /// The best order of corners of each board for given extrinsics. @param truncate_px no board scores worse than this
   Assignment assign(const Eigen::Isometry3d& T_camera_lidar, double truncate_px) const;
 
  private:

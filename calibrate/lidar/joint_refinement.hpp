@@ -31,14 +31,14 @@ struct JointResult {
   double condition = 0;
 };
 
-/// Minimises over the mounting, the LiDAR's range offset, and for each board its pose and own range offset:
+/// Minimises over the extrinsics, the LiDAR's range offset, and for each board its pose and own range offset:
 /// reprojection errors of the corners over the camera's noise, boards against what the LiDAR saw of them, offsets
 /// against their expected size.
 JointResult refine_jointly(const Chessboard& board, const std::vector<JointBoard>& boards,
                            const PinholeIntrinsics& intrinsics, const JointNoise& noise,
                            const Eigen::Isometry3d& T_camera_lidar);
 
-/// What one more board, alone, tells of (translation, rotation) of the mounting: the inverse of the covariance; none where
+/// What one more board, alone, tells of (translation, rotation) of the extrinsics: the inverse of the covariance; none where
 /// it leaves a direction free.
 Matrix6d board_information(const Chessboard& board, const BoardView& view,
                            const Eigen::Isometry3d& T_camera_lidar, const PinholeIntrinsics& intrinsics,

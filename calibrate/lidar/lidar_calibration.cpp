@@ -151,7 +151,7 @@ void bind(Binder& b, LidarCalibrationConfig& c) {
           positive());
   b.field("threads", c.threads, "recordings that are read at a time; the result does not depend on it",
           between(1, 64));
-  b.section("extrinsics", c.extrinsics, "from boards to the mounting");
+  b.section("extrinsics", c.extrinsics, "from boards to T_cam_lidar");
 }
 
 SceneResult observe_scene(StaticScene scene, const Rig& rig, const Chessboard& board,

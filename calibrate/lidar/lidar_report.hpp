@@ -9,7 +9,7 @@
 
 namespace alight {
 
-/// The result for a reader: mounting with its standard deviations, boards, other minima, advice.
+/// The result for a reader: extrinsics with their standard deviations, boards, other minima, advice.
 std::string format_lidar_report(const LidarCalibration& calibration);
 
 /// The same as JSON: T_cam_lidar, covariance (translation m, rotation vector rad, camera frame), boards, advice.
@@ -17,7 +17,7 @@ std::string lidar_report_json(const LidarCalibration& calibration);
 
 /// The LiDAR's image with the corners found in it beside the camera's image with the LiDAR's points (dark returns blue,
 /// bright ones yellow: they have to lie on the like squares) and its corners. Also for a scene that was refused, with
-/// what was found. @param T_camera_lidar the calibrated mounting. @returns CV_8UC3
+/// what was found. @param T_camera_lidar the calibrated extrinsics. @returns CV_8UC3
 cv::Mat draw_scene(const SceneResult& scene, const Chessboard& board, const RigCamera& camera,
                    const Eigen::Isometry3d& T_camera_lidar);
 

@@ -112,7 +112,7 @@ double coverage(const std::vector<StereoView>& views, bool left) {
 
 void measure_epipolar(StereoCalibration& result) {
   Rig rig = result.rig;
-  rig.lidar0 = RigLidar();  // a sensor at the left camera: its mounting is then the rectifying turn
+  rig.lidar0 = RigLidar();  // a sensor at the left camera: its extrinsics are then the rectifying turn
   const RectifiedRig rectified = StereoRectifier(rig).rig();
   const Eigen::Matrix3d R_left = rectified.T_camera_lidar.linear();
   const Eigen::Matrix3d R_right = R_left * rig.T_cam1_cam0.linear().transpose();

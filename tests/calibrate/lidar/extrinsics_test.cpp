@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 const PinholeIntrinsics kIntrinsics{440, 440, 319.5, 199.5, 640, 400};
 
-Eigen::Isometry3d mounting() {
+Eigen::Isometry3d true_extrinsics() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
   T.translation() = Eigen::Vector3d(0.04, 0.09, -0.03);
@@ -31,7 +31,7 @@ BoardView view_of(const Chessboard& board, const Eigen::Vector3d& centre, double
   T_camera_board = T_camera_board * Eigen::Translation3d(-board.centre());
   BoardView view;
   view.name = "board";
-  view.lidar.T_lidar_board = mounting().inverse() * T_camera_board;
+  view.lidar.T_lidar_board = true_extrinsics().inverse() * T_camera_board;
   view.lidar.covariance = 1e-6 * LidarBoard::Covariance::Identity();
   view.lidar.covariance(6, 6) = 1e-4;
   for (int i = 0; i < board.corners(); ++i)
@@ -55,10 +55,10 @@ std::string failure(const Chessboard& board, const std::vector<BoardView>& views
   return "nothing was thrown";
 }
 
-TEST(Extrinsics, FindTheMountingOfPerfectBoardsExactly) {
+TEST(Extrinsics, OfPerfectBoardsAreFoundExactly) {
   const Chessboard board{6, 4, 0.12};
   const Extrinsics result = solve_extrinsics(board, spread_views(board), kIntrinsics, {});
-  EXPECT_TRUE(result.T_camera_lidar.isApprox(mounting(), 1e-6));
+  EXPECT_TRUE(result.T_camera_lidar.isApprox(true_extrinsics(), 1e-6));
   EXPECT_LT(result.rmse_px, 1e-3);
 }
 
@@ -67,7 +67,8 @@ TEST(Extrinsics, SortOutBoardsThatTheLidarSeesTheOtherWayRound) {
   std::vector<BoardView> views = spread_views(board);
   for (const std::size_t turned : {1u, 3u})
     views[turned].lidar.T_lidar_board = views[turned].lidar.T_lidar_board * board_turns(board)[1];
-  EXPECT_TRUE(solve_extrinsics(board, views, kIntrinsics, {}).T_camera_lidar.isApprox(mounting(), 1e-6));
+  EXPECT_TRUE(
+      solve_extrinsics(board, views, kIntrinsics, {}).T_camera_lidar.isApprox(true_extrinsics(), 1e-6));
 }
 
 TEST(Extrinsics, LeaveOutABoardThatMoved) {
@@ -75,19 +76,19 @@ TEST(Extrinsics, LeaveOutABoardThatMoved) {
   std::vector<BoardView> views = spread_views(board);
   views[2].lidar.T_lidar_board.translation() += Eigen::Vector3d(0, 0.1, 0);
   const Extrinsics result = solve_extrinsics(board, views, kIntrinsics, {});
-  EXPECT_TRUE(result.T_camera_lidar.isApprox(mounting(), 1e-6));
+  EXPECT_TRUE(result.T_camera_lidar.isApprox(true_extrinsics(), 1e-6));
   EXPECT_FALSE(result.boards[2].used);
   EXPECT_THAT(result.boards[2].reason, HasSubstr("it moved"));
 }
 
-TEST(Extrinsics, RefuseTwoMountingsThatExplainTheBoardsEquallyWell) {
+TEST(Extrinsics, RefuseTwoThatExplainTheBoardsEquallyWell) {
   // Ends alike, and all at one place: turned by half about the board's middle, every corner lies on a corner again.
   const Chessboard board{6, 4, 0.12};
   const std::vector<BoardView> views(3, view_of(board, {0.1, 0.1, 4}, 20, 0));
   ExtrinsicsConfig config;
   config.min_tilt_spread_deg = 0;
   const std::string message = failure(board, views, config);
-  EXPECT_THAT(message, HasSubstr("two mountings explain the boards"));
+  EXPECT_THAT(message, HasSubstr("two extrinsics explain the boards"));
   EXPECT_THAT(message, HasSubstr("180 deg apart"));
   EXPECT_THAT(message, HasSubstr("record boards farther apart in the image"));
 }
@@ -97,7 +98,7 @@ TEST(Extrinsics, ABoardWithDifferentEndsIsNotAmbiguous) {
   const std::vector<BoardView> views(3, view_of(board, {0.1, 0.1, 4}, 20, 0));
   ExtrinsicsConfig config;
   config.min_tilt_spread_deg = 0;
-  EXPECT_THAT(failure(board, views, config), ::testing::Not(HasSubstr("two mountings")));
+  EXPECT_THAT(failure(board, views, config), ::testing::Not(HasSubstr("two extrinsics")));
 }
 
 TEST(Extrinsics, RefuseParallelBoards) {
@@ -114,7 +115,7 @@ TEST(Extrinsics, RefuseTooFewBoards) {
               HasSubstr("only 1 boards are usable, 3"));
 }
 
-TEST(Extrinsics, RefuseAMountingThatIsHardlyObservable) {
+TEST(Extrinsics, RefuseWhatIsHardlyObservable) {
   const Chessboard board{6, 4, 0.12};
   ExtrinsicsConfig config;
   config.max_translation_sigma_m = 1e-6;

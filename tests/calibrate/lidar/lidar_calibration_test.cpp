@@ -72,7 +72,7 @@ class LidarCalibrationTest : public ::testing::Test {
   inline static std::unique_ptr<test::ScratchFolder> scratch_;
 };
 
-TEST_F(LidarCalibrationTest, FindsTheMountingWithoutAStartAndKnowsItsError) {
+TEST_F(LidarCalibrationTest, FindsTheExtrinsicsWithoutAStartAndKnowsTheirError) {
   const LidarCalibration& result = calibrated();
   const Eigen::Isometry3d T = truth().lidar0->T_camera_lidar;
   const Eigen::Isometry3d& found = result.extrinsics.T_camera_lidar;
@@ -83,7 +83,7 @@ TEST_F(LidarCalibrationTest, FindsTheMountingWithoutAStartAndKnowsItsError) {
   for (int i = 0; i < 6; ++i) EXPECT_LT(std::abs(error[i]), 4 * result.extrinsics.sigma()[i]) << i;
   EXPECT_LT(result.extrinsics.sigma().head<3>().maxCoeff(), 0.01);
   EXPECT_FALSE(result.advice.empty());
-  // Whoever writes the rig and reads it back has the same mounting.
+  // Whoever writes the rig and reads it back has the same extrinsics.
   const Rig again = parse_rig(format_rig(result.rig), "again");
   EXPECT_TRUE(again.lidar0->T_camera_lidar.isApprox(found, 1e-5));
 }
