@@ -82,7 +82,7 @@ std::vector<StereoView> views_of_log(const StereoOptions& options) {
     views.push_back(std::move(view));
   }
   if (views.empty())
-    throw DataError(options.log + ": has no pair of images; do the eyes' stamps agree to 2 ms?");
+    throw DataError(options.log + ": has no pair of images; do the cameras' stamps agree to 2 ms?");
   return views;
 }
 

@@ -85,7 +85,7 @@ void explain(const RigCheckConfig& config, RigCheck& check) {
   } else if (check.has_right && !usable(check.stereo, config)) {
     check.reasons.push_back(
         fmt::format("no turn of the right camera explains where it sees the left one's patches ({:.0f} % of "
-                    "{}, {:.0f} % are needed): the eyes' stamps or topics do not belong together, or the "
+                    "{}, {:.0f} % are needed): the cameras' stamps or topics do not belong together, or the "
                     "right camera is turned by more than a degree",
                     100 * check.stereo.explained, check.stereo.points, 100 * config.min_stereo_explained));
   }
@@ -107,7 +107,7 @@ void bind(Binder& b, RigCheckConfig& c) {
   b.section("views", c.views, "what of the flight is used");
   b.section("edges", c.edges, "depth edges against image edges");
   b.field("stereo_window_s", c.stereo_window_s,
-          "LiDAR points measured within half of it of an image compare its two eyes", positive());
+          "LiDAR points measured within half of it of an image compare the two cameras", positive());
   b.field("min_stereo_points", c.min_stereo_points, "fewer say nothing", at_least(10));
   b.field("min_stereo_explained", c.min_stereo_explained,
           "share of these points that one turn has to explain", between(0, 1));

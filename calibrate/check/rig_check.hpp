@@ -19,10 +19,11 @@ struct RigCheckConfig {
   LogConfig log;
   FlightViewsConfig views;
   EdgeCheckConfig edges;
-  double stereo_window_s = 0.2;  ///< LiDAR points measured within half of it of an image compare its two eyes
-  int min_stereo_points = 300;   ///< fewer say nothing
+  double stereo_window_s =
+      0.2;  ///< LiDAR points measured within half of it of an image compare the two cameras
+  int min_stereo_points = 300;  ///< fewer say nothing
   double min_stereo_explained =
-      0.5;  ///< of these points; where no turn explains so many, the eyes do not look at the same
+      0.5;  ///< of these points; where no turn explains so many, the cameras do not look at the same
   double moved_turn_deg =
       0.2;  ///< the LiDAR has moved where a turn by more betters the agreement: about x and y
   double moved_roll_deg = 0.3;  ///< and about the camera's optical axis, which edges tell less well

@@ -18,10 +18,10 @@ using Eigen::Vector3d;
 constexpr double kExplained_px = 1;
 constexpr std::size_t kMaxPointsOfView = 150;
 
-/// A point of the left eye found again in the right one.
+/// A point of the left camera's image found again in the right one's.
 struct Match {
   std::size_t view;
-  Vector3d ray;  // where the rig says the right eye sees it, z = 1
+  Vector3d ray;  // where the rig says the right camera sees it, z = 1
   PatchMatch patch;
 };
 

@@ -21,7 +21,7 @@ struct StereoAgreement {
   Eigen::Vector3d sigma_rad = Eigen::Vector3d::Zero();
 };
 
-/// LiDAR points tell how far a thing is, and so at which pixels the two eyes see it: photometric agreement of the patches
+/// LiDAR points tell how far a thing is, and so at which pixels the two cameras see it: photometric agreement of the patches
 /// there. Each patch is searched for around its place in the right image; one turn of the right camera that explains most
 /// offsets is fitted robustly. @returns points = 0 for a mono rig
 /// @param window_s LiDAR points measured within half of it of an image are used

@@ -23,7 +23,7 @@ cv::Mat mean_image(const std::vector<cv::Mat>& images, std::size_t begin, std::s
   return mean;
 }
 
-/// The left eye and the LiDAR of a rig alone: a recording on a stand has neither poses nor needs the other eye.
+/// The left camera and the LiDAR of a rig alone: a recording on a stand has neither poses nor needs the right camera.
 Rig left_and_lidar(const Rig& rig) {
   if (!rig.lidar0) {
     throw ConfigError(

@@ -17,8 +17,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Eye calibrate_radtan(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size,
-                     int coefficients) {
+CameraStart calibrate_radtan(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size,
+                             int coefficients) {
   std::vector<cv::Mat> rotations;
   std::vector<cv::Mat> translations;
   cv::Mat K;
@@ -26,14 +26,14 @@ Eye calibrate_radtan(const Chessboard& board, const std::vector<Corners>& corner
   const std::vector<std::vector<cv::Point3f>> points(corners.size(), board.corner_points());
   cv::calibrateCamera(points, corners, size, K, D, rotations, translations,
                       coefficients == 4 ? cv::CALIB_FIX_K3 : 0);
-  Eye eye;
-  eye.camera.intrinsics = {K.at<double>(0, 0), K.at<double>(1, 1), K.at<double>(0, 2),
-                           K.at<double>(1, 2), size.width,         size.height};
-  eye.camera.distortion_model = DistortionModel::kRadtan;
-  for (int i = 0; i < coefficients; ++i) eye.camera.distortion_coeffs.push_back(D.at<double>(i));
+  CameraStart start;
+  start.camera.intrinsics = {K.at<double>(0, 0), K.at<double>(1, 1), K.at<double>(0, 2),
+                             K.at<double>(1, 2), size.width,         size.height};
+  start.camera.distortion_model = DistortionModel::kRadtan;
+  for (int i = 0; i < coefficients; ++i) start.camera.distortion_coeffs.push_back(D.at<double>(i));
   for (std::size_t i = 0; i < rotations.size(); ++i)
-    eye.T_camera_board.push_back(isometry_of(rotations[i], translations[i]));
-  return eye;
+    start.T_camera_board.push_back(isometry_of(rotations[i], translations[i]));
+  return start;
 }
 
 /// The directions of the corners through an ideal fisheye (r = f theta); empty if one is beyond the model's 90 deg.
@@ -84,26 +84,26 @@ double squared_angles(const Chessboard& board, const std::vector<Vector3d>& rays
 
 /// The ideal fisheye that explains the boards best, of focal lengths 10 % apart: near enough for the refinement that
 /// follows. cv::fisheye::calibrate is not used: its undamped steps diverge on one good set in eight.
-Eye start_fisheye(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size) {
+CameraStart start_fisheye(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size) {
   const double right_angle_px =
       0.5 * std::hypot(size.width, size.height) / (kPi / 2);  // to the image's corner
-  Eye best;
+  CameraStart best;
   double best_px2 = std::numeric_limits<double>::infinity();
   for (double f_px = right_angle_px / 2; f_px < 20 * right_angle_px; f_px *= 1.1) {
-    Eye eye;
-    eye.camera.intrinsics = {f_px,       f_px,       0.5 * (size.width - 1), 0.5 * (size.height - 1),
-                             size.width, size.height};
+    CameraStart start;
+    start.camera.intrinsics = {f_px,       f_px,       0.5 * (size.width - 1), 0.5 * (size.height - 1),
+                               size.width, size.height};
     double px2 = 0;
     for (const Corners& view : corners) {
-      const std::vector<Vector3d> rays = fisheye_rays(view, eye.camera.intrinsics);
+      const std::vector<Vector3d> rays = fisheye_rays(view, start.camera.intrinsics);
       const std::optional<Eigen::Isometry3d> T = rays.empty() ? std::nullopt : board_pose(board, rays);
       if (!T) break;
       px2 += f_px * f_px * squared_angles(board, rays, *T);
-      eye.T_camera_board.push_back(*T);
+      start.T_camera_board.push_back(*T);
     }
-    if (eye.T_camera_board.size() < corners.size() || px2 >= best_px2) continue;
+    if (start.T_camera_board.size() < corners.size() || px2 >= best_px2) continue;
     best_px2 = px2;
-    best = eye;
+    best = start;
   }
   if (best.T_camera_board.empty())
     throw DataError(
@@ -115,8 +115,8 @@ Eye start_fisheye(const Chessboard& board, const std::vector<Corners>& corners, 
 
 }  // namespace
 
-Eye calibrate_eye(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size,
-                  const StereoCalibrationConfig& config) {
+CameraStart calibrate_camera(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size,
+                             const StereoCalibrationConfig& config) {
   return config.model == DistortionModel::kEquidistant
              ? start_fisheye(board, corners, size)
              : calibrate_radtan(board, corners, size, config.radtan_coefficients);

@@ -12,14 +12,14 @@
 namespace alight {
 
 /// One camera and where it saw the board.
-struct Eye {
+struct CameraStart {
   Camera camera;
   std::vector<Eigen::Isometry3d> T_camera_board;  ///< of each view
 };
 
 /// One camera alone, the start of calibrate_stereo: by OpenCV, or of a fisheye its focal length and the poses, without
 /// distortion. @param corners of each view. @throws DataError: no fisheye fits
-Eye calibrate_eye(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size,
-                  const StereoCalibrationConfig& config);
+CameraStart calibrate_camera(const Chessboard& board, const std::vector<Corners>& corners, cv::Size size,
+                             const StereoCalibrationConfig& config);
 
 }  // namespace alight

@@ -17,7 +17,7 @@ struct StereoBundle {
   std::vector<Eigen::Isometry3d> T_left_board;  ///< a view
 };
 
-/// The corners of one view in both eyes.
+/// The corners of one view in both cameras.
 struct StereoCorners {
   const Corners* left;
   const Corners* right;

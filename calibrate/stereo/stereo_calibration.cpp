@@ -50,18 +50,19 @@ BundleResult calibrate_used(const Chessboard& board, const std::vector<StereoVie
     both.push_back({&views[i].left_corners, &views[i].right_corners});
   }
   const cv::Size size = views[used.front()].left.size();
-  auto right_eye = std::async(std::launch::async, [&] { return calibrate_eye(board, right, size, config); });
-  const Eye eye_left = calibrate_eye(board, left, size, config);
-  const Eye eye_right = right_eye.get();
-  StereoBundle start{eye_left.camera, eye_right.camera, Eigen::Isometry3d::Identity(),
-                     eye_left.T_camera_board};
+  auto in_parallel =
+      std::async(std::launch::async, [&] { return calibrate_camera(board, right, size, config); });
+  const CameraStart start_left = calibrate_camera(board, left, size, config);
+  const CameraStart start_right = in_parallel.get();
+  StereoBundle start{start_left.camera, start_right.camera, Eigen::Isometry3d::Identity(),
+                     start_left.T_camera_board};
   // Each view has an opinion on the right camera's place; the one that suits all views best is the start.
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < used.size(); ++i) {
-    const Eigen::Isometry3d T = eye_right.T_camera_board[i] * eye_left.T_camera_board[i].inverse();
+    const Eigen::Isometry3d T = start_right.T_camera_board[i] * start_left.T_camera_board[i].inverse();
     double error = 0;
     for (std::size_t k = 0; k < used.size(); ++k) {
-      const Corners seen = project_board(board, eye_right.camera, T * eye_left.T_camera_board[k]);
+      const Corners seen = project_board(board, start_right.camera, T * start_left.T_camera_board[k]);
       error += cv::norm(seen, right[k], cv::NORM_L1);
     }
     if (error >= best) continue;
@@ -88,7 +89,7 @@ bool reject_worst(std::vector<StereoView>& views, const std::vector<std::size_t>
     return false;
   views[used[worst]].used = false;
   views[used[worst]].reason = fmt::format(
-      "fits with {:.2f} px, the median view with {:.2f} px: the board moved between the eyes' exposures, was "
+      "fits with {:.2f} px, the median view with {:.2f} px: the board moved between the cameras' exposures, was "
       "bent, or a corner was mistaken",
       rms[worst], median_px);
   return true;
@@ -138,17 +139,17 @@ void measure_epipolar(StereoCalibration& result) {
 
 void list_estimates(const BundleResult& bundle, StereoCalibration& result) {
   Eigen::Index at = 0;
-  const auto lens = [&](const std::string& eye, const Camera& camera) {
+  const auto lens = [&](const std::string& name, const Camera& camera) {
     const PinholeIntrinsics& k = camera.intrinsics;
     const bool fisheye = camera.distortion_model == DistortionModel::kEquidistant;
     const std::vector<std::string> names = fisheye ? std::vector<std::string>{"k1", "k2", "k3", "k4"}
                                                    : std::vector<std::string>{"k1", "k2", "p1", "p2", "k3"};
     const std::array<std::pair<const char*, double>, 4> pinhole = {
         {{"fx_px", k.fx_px}, {"fy_px", k.fy_px}, {"cx_px", k.cx_px}, {"cy_px", k.cy_px}}};
-    for (const auto& [name, value] : pinhole)
-      result.estimates.push_back({eye + " " + name, value, bundle.sigma[at++]});
+    for (const auto& [parameter, value] : pinhole)
+      result.estimates.push_back({name + " " + parameter, value, bundle.sigma[at++]});
     for (std::size_t i = 0; i < camera.distortion_coeffs.size(); ++i)
-      result.estimates.push_back({eye + " " + names[i], camera.distortion_coeffs[i], bundle.sigma[at++]});
+      result.estimates.push_back({name + " " + names[i], camera.distortion_coeffs[i], bundle.sigma[at++]});
   };
   lens("cam0", bundle.bundle.left);
   lens("cam1", bundle.bundle.right);

@@ -47,7 +47,7 @@ struct Estimate {
 
 struct StereoCalibration {
   Rig rig;            ///< both cameras, without topics, LiDAR and IMU
-  double rms_px = 0;  ///< over all corners of both eyes, as cv::stereoCalibrate counts
+  double rms_px = 0;  ///< over all corners of both cameras, as cv::stereoCalibrate counts
   std::vector<Estimate> estimates;
   double epipolar_rms_px = 0;  ///< row of a corner in the left minus in the right rectified image
   double epipolar_max_px = 0;
@@ -56,14 +56,14 @@ struct StereoCalibration {
   std::vector<StereoView> views;
 };
 
-/// Finds the board in both eyes of every view, in parallel; views without it get a reason. The right eye's corners come
-/// in the left eye's order. @throws DataError naming a view of another resolution
+/// Finds the board in both images of every view, in parallel; views without it get a reason. The right camera's corners
+/// come in the left one's order. @throws DataError naming a view of another resolution
 void find_boards(const Chessboard& board, std::vector<StereoView>& views, int threads);
 
-/// Lenses and the right camera's place together, by Levenberg-Marquardt over all corners of both eyes (Zhang, "A Flexible
+/// Lenses and the right camera's place together, by Levenberg-Marquardt over all corners of both (Zhang, "A Flexible
 /// New Technique for Camera Calibration", 2000; started by OpenCV). Views that fit far worse than the others are left out
 /// with the reason, and the rest is calibrated anew.
-/// @throws DataError too few views, or an eye that never saw the board
+/// @throws DataError too few views, or a camera that never saw the board
 StereoCalibration calibrate_stereo(const Chessboard& board, std::vector<StereoView> views,
                                    const StereoCalibrationConfig& config);
 

@@ -11,7 +11,7 @@
 namespace alight {
 namespace {
 
-/// The eyes hang upright beside each other, so that the board looks alike to both: the order of the right corners in
+/// The cameras hang upright beside each other, so that the board looks alike to both: the order of the right corners in
 /// which they lie as the left ones do, but for a shift.
 void match_order(const Chessboard& board, const Corners& left, Corners& right) {
   Corners best = right;
@@ -43,7 +43,7 @@ void find_board(const Chessboard& board, StereoView& view) {
   if (!left || !right) {
     view.reason = (left    ? "right: "
                    : right ? "left: "
-                           : "both eyes: ") +
+                           : "both cameras: ") +
                   why_not_found(left ? view.right : view.left, board);
     return;
   }

@@ -104,9 +104,9 @@ TEST_P(TurnedLidar, HasMovedAndIsToldHowToTurnBack) {
 }
 INSTANTIATE_TEST_SUITE_P(Axes, TurnedLidar, ::testing::Values(0, 1, 2));
 
-class TurnedEye : public RigCheckTest, public ::testing::WithParamInterface<int> {};
+class TurnedCamera : public RigCheckTest, public ::testing::WithParamInterface<int> {};
 
-TEST_P(TurnedEye, HasMovedAndIsToldHowToTurnBack) {
+TEST_P(TurnedCamera, HasMovedAndIsToldHowToTurnBack) {
   const auto axis = static_cast<std::size_t>(6 + GetParam());
   Rig rig = true_rig();
   rig.T_cam1_cam0 = turn(GetParam()) * rig.T_cam1_cam0;
@@ -118,7 +118,7 @@ TEST_P(TurnedEye, HasMovedAndIsToldHowToTurnBack) {
   }
   for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(check.axes[i].moved) << "the LiDAR has not";
 }
-INSTANTIATE_TEST_SUITE_P(Axes, TurnedEye, ::testing::Values(0, 1, 2));
+INSTANTIATE_TEST_SUITE_P(Axes, TurnedCamera, ::testing::Values(0, 1, 2));
 
 TEST_F(RigCheckTest, AShiftIsNoticed) {
   FlightViews shifted = flight();

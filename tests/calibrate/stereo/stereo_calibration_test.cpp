@@ -153,7 +153,7 @@ TEST(StereoCalibration, FindsEquidistantLensesWhateverLensAndNoise) {
 TEST(StereoCalibration, LeavesOutAViewThatFitsFarWorseAndSaysSo) {
   std::vector<StereoView> views = fisheye_views(fisheyes());
   for (cv::Point2f& corner : views[5].right_corners)
-    corner.x += 3;  // the board moved between the eyes' exposures
+    corner.x += 3;  // the board moved between the cameras' exposures
   StereoCalibrationConfig config;
   config.model = DistortionModel::kEquidistant;
   const StereoCalibration result = calibrate_stereo(kBoard, views, config);
@@ -201,11 +201,11 @@ TEST(StereoCalibration, NamesViewsWithoutABoard) {
     FAIL() << "nothing was thrown";
   } catch (const DataError& e) {
     EXPECT_THAT(e.what(), HasSubstr("only 0 of 6 views are usable"));
-    EXPECT_THAT(e.what(), HasSubstr("fifth: both eyes: no chessboard of 9x6 inner corners found"));
+    EXPECT_THAT(e.what(), HasSubstr("fifth: both cameras: no chessboard of 9x6 inner corners found"));
   }
 }
 
-TEST(StereoCalibration, NamesTheEyeThatSeesNoBoard) {
+TEST(StereoCalibration, NamesTheCameraThatSeesNoBoard) {
   std::vector<StereoView> views = real_views();
   if (views.empty()) GTEST_SKIP() << "opencv-doc is not installed";
   views.resize(2);
