@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -57,8 +57,5 @@ class Random {
   std::uint64_t state_ = 0;
   std::uint64_t increment_;
 };
-
-/// Smooth noise in [-1, 1] with one knot every unit.
-double value_noise(double x, double y, std::uint32_t seed);
 
 }  // namespace alight::sim

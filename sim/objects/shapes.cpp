@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "sim/value_noise.hpp"
+
 namespace alight::sim {
 namespace {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/random.hpp"
 #include "sim/render/packet_query.hpp"
+#include "sim/value_noise.hpp"
 
 namespace alight::sim {
 namespace {

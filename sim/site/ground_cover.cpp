@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "foundation/parallel_rows.hpp"
+#include "sim/value_noise.hpp"
 
 namespace alight::sim {
 namespace {

@@ -1,6 +1,7 @@
 #include "sim/site/relief.hpp"
 
 #include "sim/random.hpp"
+#include "sim/value_noise.hpp"
 
 namespace alight::sim {
 

@@ -1,3 +1,7 @@
+#include "sim/value_noise.hpp"
+
+#include <cmath>
+
 #include "sim/random.hpp"
 
 namespace alight::sim {
