@@ -1,4 +1,6 @@
-#include "calibrate/calibrate_commands.hpp"
+#include "calibrate/check_command.hpp"
+#include "calibrate/lidar_command.hpp"
+#include "calibrate/stereo_command.hpp"
 
 namespace {
 

@@ -1,8 +1,10 @@
+#include "calibrate/check_command.hpp"
+
 #include <cstdio>
 #include <optional>
 
-#include "calibrate/calibrate_commands.hpp"
 #include "calibrate/check/rig_check.hpp"
+#include "calibrate/check/rig_check_report.hpp"
 #include "foundation/output_folder.hpp"
 #include "foundation/shipped_files.hpp"
 #include "pictures/picture_file.hpp"

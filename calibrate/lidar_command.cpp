@@ -1,7 +1,8 @@
+#include "calibrate/lidar_command.hpp"
+
 #include <cstdio>
 #include <optional>
 
-#include "calibrate/calibrate_commands.hpp"
 #include "calibrate/lidar/lidar_calibration.hpp"
 #include "calibrate/lidar/lidar_report.hpp"
 #include "foundation/new_file.hpp"

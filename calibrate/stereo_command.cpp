@@ -1,3 +1,5 @@
+#include "calibrate/stereo_command.hpp"
+
 #include <cstdio>
 #include <optional>
 
@@ -5,9 +7,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <spdlog/spdlog.h>
 
-#include "calibrate/calibrate_commands.hpp"
 #include "calibrate/clocks/grey_image.hpp"
 #include "calibrate/stereo/stereo_calibration.hpp"
+#include "calibrate/stereo/stereo_report.hpp"
+#include "calibrate/stereo/stereo_views.hpp"
 #include "foundation/new_file.hpp"
 #include "foundation/output_folder.hpp"
 #include "pictures/picture_file.hpp"

@@ -66,12 +66,4 @@ RigCheck check_rig(const FlightViews& flight, const RigCheckConfig& config);
 /// The flight's depth edges and images, ready to be held against each other.
 EdgeAgreement edge_agreement_of(const FlightViews& flight, const EdgeCheckConfig& config);
 
-/// The result for a reader, and as JSON.
-std::string format_rig_check(const RigCheck& check);
-std::string rig_check_json(const RigCheck& check);
-
-/// The view with most depth edges: where the rig puts them (red) and where they would agree best (green), beside the
-/// agreement over turns about x and y. CV_8UC3
-cv::Mat draw_rig_check(const FlightViews& flight, const RigCheck& check, const RigCheckConfig& config);
-
 }  // namespace alight

@@ -1,3 +1,5 @@
+#include "calibrate/check/rig_check_report.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -5,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calibrate/check/rig_check.hpp"
 #include "geometry/frames.hpp"
 
 namespace alight {

@@ -1,3 +1,5 @@
+#include "calibrate/lidar/board_advice.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "calibrate/lidar/extrinsics.hpp"
 #include "calibrate/lidar/joint_refinement.hpp"
 #include "geometry/frames.hpp"
 

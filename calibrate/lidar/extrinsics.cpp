@@ -44,12 +44,12 @@ void require_observable(const Extrinsics& result, const ExtrinsicsConfig& config
   sigma.tail<3>().maxCoeff(&turn);
   const double turn_deg = to_degrees(sigma[3 + turn]);
   if (sigma[shift] <= config.max_translation_sigma_m && turn_deg <= config.max_rotation_sigma_deg) return;
-  throw DataError(
-      fmt::format("the extrinsics are not observable well enough: 1 sigma of the shift along the camera's {} is "
-                  "{:.1f} mm (at most {:.1f}), of the turn about its {} {:.3f} deg (at most {:.3f}); record "
-                  "more boards, at other places of the image, nearer, and tilted in other directions",
-                  kAxes[shift], 1e3 * sigma[shift], 1e3 * config.max_translation_sigma_m, kAxes[turn],
-                  turn_deg, config.max_rotation_sigma_deg));
+  throw DataError(fmt::format(
+      "the extrinsics are not observable well enough: 1 sigma of the shift along the camera's {} is "
+      "{:.1f} mm (at most {:.1f}), of the turn about its {} {:.3f} deg (at most {:.3f}); record "
+      "more boards, at other places of the image, nearer, and tilted in other directions",
+      kAxes[shift], 1e3 * sigma[shift], 1e3 * config.max_translation_sigma_m, kAxes[turn], turn_deg,
+      config.max_rotation_sigma_deg));
 }
 
 void require_distinct(const Extrinsics& result, const ExtrinsicsConfig& config) {

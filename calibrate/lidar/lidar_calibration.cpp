@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "calibrate/lidar/board_advice.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
 

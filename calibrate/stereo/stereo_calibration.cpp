@@ -89,7 +89,8 @@ bool reject_worst(std::vector<StereoView>& views, const std::vector<std::size_t>
     return false;
   views[used[worst]].used = false;
   views[used[worst]].reason = fmt::format(
-      "fits with {:.2f} px, the median view with {:.2f} px: the board moved between the cameras' exposures, was "
+      "fits with {:.2f} px, the median view with {:.2f} px: the board moved between the cameras' exposures, "
+      "was "
       "bent, or a corner was mistaken",
       rms[worst], median_px);
   return true;

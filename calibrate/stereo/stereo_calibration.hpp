@@ -56,21 +56,11 @@ struct StereoCalibration {
   std::vector<StereoView> views;
 };
 
-/// Finds the board in both images of every view, in parallel; views without it get a reason. The right camera's corners
-/// come in the left one's order. @throws DataError naming a view of another resolution
-void find_boards(const Chessboard& board, std::vector<StereoView>& views, int threads);
-
 /// Lenses and the right camera's place together, by Levenberg-Marquardt over all corners of both (Zhang, "A Flexible
 /// New Technique for Camera Calibration", 2000; started by OpenCV). Views that fit far worse than the others are left out
 /// with the reason, and the rest is calibrated anew.
 /// @throws DataError too few views, or a camera that never saw the board
 StereoCalibration calibrate_stereo(const Chessboard& board, std::vector<StereoView> views,
                                    const StereoCalibrationConfig& config);
-
-/// The result for a reader.
-std::string format_stereo_report(const StereoCalibration& calibration);
-
-/// Both rectified images of a view side by side with level lines through both. CV_8UC3
-cv::Mat draw_rectified(const StereoCalibration& calibration, const StereoView& view);
 
 }  // namespace alight

@@ -1,9 +1,10 @@
+#include "calibrate/stereo/stereo_report.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "calibrate/stereo/stereo_calibration.hpp"
 #include "geometry/rig/stereo_rectification.hpp"
 
 namespace alight {

@@ -1,3 +1,5 @@
+#include "calibrate/stereo/stereo_views.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <future>
@@ -5,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/stereo/stereo_calibration.hpp"
 #include "foundation/errors.hpp"
 
 namespace alight {

@@ -4,7 +4,7 @@
 
 #include "dataset/build/depth_map_builder.hpp"
 #include "foundation/binder_fwd.hpp"
-#include "foundation/child_processes.hpp"
+#include "foundation/processes/child_processes.hpp"
 #include "sensors/stream/log_config.hpp"
 
 namespace alight {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "calibrate/check/rig_check_report.hpp"
 #include "foundation/errors.hpp"
 #include "geometry/frames.hpp"
 #include "sim/record/simulated_log.hpp"

@@ -11,6 +11,8 @@
 
 #include "calibrate/board/chessboard.hpp"
 #include "calibrate/stereo/stereo_bundle.hpp"
+#include "calibrate/stereo/stereo_report.hpp"
+#include "calibrate/stereo/stereo_views.hpp"
 #include "foundation/errors.hpp"
 #include "geometry/frames.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "dataset/build/dataset_builder.hpp"
 #include "dataset/build/dataset_merge.hpp"
-#include "foundation/child_exit.hpp"
 #include "foundation/errors.hpp"
+#include "foundation/processes/child_exit.hpp"
 #include "tests/sensors/test_flight.hpp"
 #include "tests/support/file_text.hpp"
 #include "tests/support/programs.hpp"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "foundation/child_exit.hpp"
+#include "foundation/processes/child_exit.hpp"
 #include "tests/infer/recorder/recorded_flight.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/scratch_folder.hpp"

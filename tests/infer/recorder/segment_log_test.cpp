@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "foundation/child_exit.hpp"
 #include "foundation/errors.hpp"
+#include "foundation/processes/child_exit.hpp"
 #include "tests/support/file_text.hpp"
 #include "tests/support/programs.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-#include "foundation/child_exit.hpp"
+#include "foundation/processes/child_exit.hpp"
 
 #include <cerrno>
 

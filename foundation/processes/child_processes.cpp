@@ -1,4 +1,4 @@
-#include "foundation/child_processes.hpp"
+#include "foundation/processes/child_processes.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -18,9 +18,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "foundation/child_exit.hpp"
 #include "foundation/config_reader.hpp"
 #include "foundation/errors.hpp"
+#include "foundation/processes/child_exit.hpp"
 
 extern char** environ;
 

@@ -1,4 +1,4 @@
-#include "foundation/child_exit.hpp"
+#include "foundation/processes/child_exit.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "foundation/child_processes.hpp"
+#include "foundation/processes/child_processes.hpp"
 
 #include <chrono>
 #include <csignal>
