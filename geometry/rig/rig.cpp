@@ -16,6 +16,8 @@ struct LidarYaml {
   StampSource stamp = StampSource::kHeader;
   PointTiming points;
   double reflectivity_scale = 1;
+  std::optional<int> lidar_id;
+  NoisePoints noise_points = NoisePoints::kDropLikely;
   std::string rostopic;
 };
 
@@ -33,6 +35,9 @@ void bind(Binder& b, LidarYaml& c) {
   bind_stamp(b, "stamp", c.stamp);
   bind_point_timing(b, c.points);
   b.field("reflectivity_scale", c.reflectivity_scale, "from the driver's intensity to 0 .. 255", positive());
+  b.field("lidar_id", c.lidar_id, "which LiDAR of a topic on which a Livox driver publishes several",
+          between(0, 255));
+  bind_noise_points(b, "noise_points", c.noise_points);
   b.field("rostopic", c.rostopic, "topic of the points");
 }
 
@@ -97,7 +102,8 @@ Eigen::Isometry3d right_from_left(const std::string& name, const RigYaml& yaml) 
 }
 
 RigLidar to_lidar(const LidarYaml& yaml) {
-  return {*yaml.T_cam_lidar, yaml.timeshift, yaml.stamp, yaml.points, yaml.reflectivity_scale, yaml.rostopic};
+  return {*yaml.T_cam_lidar,       yaml.timeshift, yaml.stamp,        yaml.points,
+          yaml.reflectivity_scale, yaml.lidar_id,  yaml.noise_points, yaml.rostopic};
 }
 
 Rig to_rig(const std::string& name, RigYaml yaml) {
@@ -142,8 +148,8 @@ std::string format_rig(const Rig& rig) {
   if (rig.lidar0) {
     const RigLidar& lidar = *rig.lidar0;
     yaml.lidar0 =
-        LidarYaml{lidar.T_camera_lidar,     std::nullopt, lidar.timeshift_s, lidar.stamp, lidar.points,
-                  lidar.reflectivity_scale, lidar.topic};
+        LidarYaml{lidar.T_camera_lidar,     std::nullopt,   lidar.timeshift_s,  lidar.stamp, lidar.points,
+                  lidar.reflectivity_scale, lidar.lidar_id, lidar.noise_points, lidar.topic};
   }
   return print_config(yaml);
 }

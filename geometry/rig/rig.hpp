@@ -8,6 +8,7 @@
 
 #include "foundation/errors.hpp"
 #include "geometry/camera.hpp"
+#include "geometry/rig/noise_points.hpp"
 #include "geometry/rig/point_timing.hpp"
 #include "geometry/rig/transform_form.hpp"
 
@@ -29,6 +30,8 @@ struct RigLidar {
   StampSource stamp = StampSource::kHeader;
   PointTiming points;
   double reflectivity_scale = 1;  ///< from the driver's intensity to 0 .. 255
+  std::optional<int> lidar_id;  ///< of a topic on which a Livox driver publishes several; none: it holds one
+  NoisePoints noise_points = NoisePoints::kDropLikely;
   std::string topic;
 };
 

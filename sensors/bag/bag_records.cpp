@@ -79,6 +79,11 @@ std::optional<BagRecord> read_bag_header(BagFile& file) {
   if (file.bytes(0, kBagMagic.size()) != kBagMagic) return std::nullopt;
   BagRecord header = file.record(kBagMagic.size(), file.size());
   if (file.op(header) != BagOp::kFileHeader) file.fail(header.begin, "no file header");
+  const auto encryptor = header.fields.find("encryptor");
+  if (encryptor != header.fields.end() && !encryptor->second.empty()) {
+    throw DataError(file.path().string() + ": is encrypted (" + encryptor->second.substr(0, 60) +
+                    "); decrypt it where its GnuPG key is: rosbag decrypt " + file.path().string());
+  }
   return header;
 }
 

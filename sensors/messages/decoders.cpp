@@ -41,7 +41,7 @@ std::deque<Decoder>& table() {
       row<sensor_msgs::CompressedImage>(LogRole::kImage, decode_compressed_image),
       row<livox_ros_driver::CustomMsg>(LogRole::kLidar, decode_livox),
       {"livox_ros_driver2/CustomMsg", ros::message_traits::MD5Sum<livox_ros_driver::CustomMsg>::value(),
-       LogRole::kLidar, decode_livox},
+       LogRole::kLidar, decode_livox2},
       row<sensor_msgs::PointCloud2>(LogRole::kLidar, decode_point_cloud),
       row<geometry_msgs::QuaternionStamped>(LogRole::kAttitude, decode_quaternion),
       row<sensor_msgs::Imu>(LogRole::kAttitude, decode_imu_attitude),

@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/rig/noise_points.hpp"
 #include "geometry/rig/point_timing.hpp"
 #include "sensors/messages/byte_reader.hpp"
 #include "sensors/messages/message_types.hpp"
+#include "sensors/messages/point_times.hpp"
 
 /// From the bytes of a ROS 1 message to our types. To add a type: write its decode function, give it a row in
 /// the table of decoders.cpp and a test; from outside, a row by add_decoder.
@@ -34,7 +36,9 @@ struct DecodeOptions {
   StampSource stamp = StampSource::kHeader;
   PointTiming points;
   double reflectivity_scale = 1;
+  NoisePoints noise = NoisePoints::kDropLikely;
   TransformFrames frames;
+  PointTimeMemory* point_times = nullptr;  ///< of the LiDAR's topic
 };
 
 /// Reads the header at the begin of a message. @returns the time that `options` choose for the message, ns

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -45,13 +47,17 @@ struct LidarReturn {
 struct LidarPacket {
   std::int64_t t_ns = 0;  ///< the message's stamp
   std::vector<LidarReturn> returns;
-  std::int64_t dropped = 0;  ///< points without echo, not finite or out of range; not in `returns`
+  std::int64_t dropped = 0;       ///< points without echo, not finite or out of range; not in `returns`
+  std::int64_t noise = 0;         ///< points that the sensor marked as noise; not in `returns`
+  std::string frame_id{};         ///< of the message's header
+  std::optional<int> lidar_id{};  ///< where the message tells which of a driver's LiDARs it is from
 };
 
 /// Attitude of the vehicle's body (x forward, y left, z up) in East-North-Up, unit length.
 struct AttitudeSample {
   std::int64_t t_ns = 0;
   Eigen::Quaterniond q_world_imu = Eigen::Quaterniond::Identity();
+  std::optional<double> rate_rad_s{};  ///< of turning, by the same message's gyroscope
 };
 
 /// A satellite fix, WGS84.
@@ -59,6 +65,7 @@ struct GeodeticPosition {
   double latitude_deg = 0;
   double longitude_deg = 0;
   double altitude_m = 0;  ///< above the ellipsoid
+  double sigma_m = 0;     ///< 1 sigma horizontally, as the receiver says; 0: it does not
 };
 
 /// Where the vehicle is: a satellite fix, or metres in the upright frame of an odometry, a tracker or a total station.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,6 +74,7 @@ double value_at(const std::uint8_t* point, const CloudField& field, bool big_end
 /// What precedes the points, and where they are. Every size is checked against the bytes that are there.
 struct Cloud {
   ScanStamp stamp;
+  std::string frame_id;
   std::uint32_t height = 0;
   std::uint32_t width = 0;
   std::vector<CloudField> fields;
@@ -145,7 +147,9 @@ void check_layout(const Cloud& cloud, std::uint64_t bytes) {
 Cloud read_cloud(const RawMessage& message, const DecodeOptions& options) {
   ByteReader reader(message);
   Cloud cloud;
-  cloud.stamp.header_ns = reader.read_header().stamp_ns;
+  const MessageHeader header = reader.read_header();
+  cloud.stamp.header_ns = header.stamp_ns;
+  cloud.frame_id = header.frame_id;
   cloud.stamp.is_header = options.stamp == StampSource::kHeader;
   cloud.stamp.chosen_ns = cloud.stamp.is_header ? cloud.stamp.header_ns : message.receive_ns;
   cloud.height = reader.read<std::uint32_t>();
@@ -206,19 +210,31 @@ std::vector<Eigen::Vector3f> positions_of(const Cloud& cloud) {
   return positions;
 }
 
+/// Of points without echo drivers write whatever they like.
+void leave_out_without_echo(const std::vector<Eigen::Vector3f>& positions, const DecodeOptions& options,
+                            std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!is_echo(positions[i], options)) values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 std::vector<std::int64_t> times_of(const Cloud& cloud, const std::vector<Eigen::Vector3f>& positions,
-                                   const PointTiming& timing) {
+                                   const DecodeOptions& options) {
+  const PointTiming& timing = options.points;
   if (const auto split = split_time(cloud, timing)) {
     std::vector<double> values_ns = values_of(cloud, *split->nanoseconds);
     const std::vector<double> seconds = values_of(cloud, *split->seconds);
     for (std::size_t i = 0; i < values_ns.size(); ++i) values_ns[i] += seconds[i] * 1e9;
+    leave_out_without_echo(positions, options, values_ns);
     PointTiming in_ns = timing;
     in_ns.unit = PointTiming::Unit::kNanoseconds;
-    return times_of_values(values_ns, TimeNumber::kDouble, in_ns, cloud.stamp);
+    return times_of_values(values_ns, TimeNumber::kDouble, in_ns, cloud.stamp, options.point_times);
   }
   const CloudField* time = time_field(cloud, timing);
   if (time == nullptr) return spread_times(positions, timing, cloud.stamp);
-  return times_of_values(values_of(cloud, *time), time->time_number(), timing, cloud.stamp);
+  std::vector<double> values = values_of(cloud, *time);
+  leave_out_without_echo(positions, options, values);
+  return times_of_values(values, time->time_number(), timing, cloud.stamp, options.point_times);
 }
 
 }  // namespace
@@ -229,8 +245,9 @@ std::optional<DecodedMessage> decode_point_cloud(const RawMessage& message, cons
   const CloudField* reflectivity = cloud.find_first({"reflectivity", "intensity", "i"});
   LidarPacket out;
   out.t_ns = cloud.stamp.chosen_ns;
+  out.frame_id = cloud.frame_id;
   if (positions.empty()) return out;
-  const std::vector<std::int64_t> times_ns = times_of(cloud, positions, options.points);
+  const std::vector<std::int64_t> times_ns = times_of(cloud, positions, options);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (times_ns[i] == kNoTime_ns || !is_echo(positions[i], options)) continue;
     LidarReturn point{times_ns[i], positions[i], 0};

@@ -80,9 +80,15 @@ struct Meaning {
   Base base;
 };
 
-Meaning meaning_of(const Extent& extent, TimeNumber number, const PointTiming& timing,
-                   const ScanStamp& stamp) {
+Meaning meaning_of(const Extent& extent, TimeNumber number, const PointTiming& timing, const ScanStamp& stamp,
+                   PointTimeMemory* memory) {
   Meaning meaning{timing.unit, timing.base};
+  if (number == TimeNumber::kSingle && absolute_unit(extent.max, meaning.unit, stamp)) {
+    fail_unclear(
+        extent,
+        "absolute times, which float32 cannot hold (its steps are up to 128 s); let the driver write "
+        "float64, or set point_time: none and scan_period_s of the rig's lidar0");
+  }
   if (meaning.base == Base::kAuto || (meaning.base == Base::kAbsolute && meaning.unit == Unit::kAuto)) {
     const auto unit =
         number == TimeNumber::kDouble ? absolute_unit(extent.max, meaning.unit, stamp) : std::nullopt;
@@ -95,7 +101,8 @@ Meaning meaning_of(const Extent& extent, TimeNumber number, const PointTiming& t
     meaning = unit ? Meaning{*unit, Base::kAbsolute} : Meaning{meaning.unit, Base::kRelative};
   }
   if (meaning.unit != Unit::kAuto) return meaning;
-  const double longest = meaning.base == Base::kOwnClock ? extent.max - extent.min : extent.longest();
+  double longest = meaning.base == Base::kOwnClock ? extent.max - extent.min : extent.longest();
+  if (memory != nullptr) longest = memory->longest = std::max(memory->longest, longest);
   const auto unit = relative_unit(longest, number);
   if (!unit) {
     fail_unclear(extent,
@@ -122,10 +129,11 @@ std::int64_t scan_begin_ns(std::int64_t stamp_ns, const PointTiming& timing, std
 }
 
 std::vector<std::int64_t> times_of_values(const std::vector<double>& values, TimeNumber number,
-                                          const PointTiming& timing, const ScanStamp& stamp) {
+                                          const PointTiming& timing, const ScanStamp& stamp,
+                                          PointTimeMemory* memory) {
   const Extent extent = extent_of(values);
   if (extent.min > extent.max) return std::vector<std::int64_t>(values.size(), kNoTime_ns);
-  Meaning meaning = meaning_of(extent, number, timing, stamp);
+  Meaning meaning = meaning_of(extent, number, timing, stamp, memory);
   if (meaning.base == Base::kAbsolute && !stamp.is_header) meaning.base = Base::kOwnClock;
   const double unit_ns = nanoseconds_per(meaning.unit);
   const double longest_ns =
@@ -136,7 +144,9 @@ std::vector<std::int64_t> times_of_values(const std::vector<double>& values, Tim
   }
   double zero = 0;  // the value that stands for the origin
   std::int64_t origin_ns = 0;
-  if (meaning.base == Base::kRelative) {
+  if (meaning.base == Base::kRelative && extent.min < 0 && extent.max <= 0) {
+    origin_ns = stamp.chosen_ns;  // negative times count back from the stamp, whichever end it is said to be
+  } else if (meaning.base == Base::kRelative) {
     origin_ns = scan_begin_ns(stamp.chosen_ns, timing, std::llround(extent.max * unit_ns));
   } else if (meaning.base == Base::kOwnClock) {
     zero = timing.stamp_at == PointTiming::StampAt::kStart ? extent.min : extent.max;

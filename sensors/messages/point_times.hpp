@@ -18,6 +18,12 @@ struct ScanStamp {
   bool is_header = true;
 };
 
+/// What the messages of a topic said of their points' times so far. A unit is told by how long a scan is; a cloud that lost
+/// most of its points is short, and would be taken for another unit.
+struct PointTimeMemory {
+  double longest = 0;  ///< number in the time field of any cloud so far
+};
+
 /// Stands for a time that is not finite.
 constexpr std::int64_t kNoTime_ns = std::numeric_limits<std::int64_t>::min();
 
@@ -28,10 +34,12 @@ std::int64_t scan_begin_ns(std::int64_t stamp_ns, const PointTiming& timing, std
 /// What a time field is made of. Only double numbers hold times since 1970 to less than a second.
 enum class TimeNumber { kWhole, kSingle, kDouble };
 
-/// The time of each point from its value in the cloud's time field. @throws DecodeError that names the key of the rig
+/// The time of each point from its value in the cloud's time field; values that are not finite take no part.
+/// @param memory of the topic; null: this message is judged alone. @throws DecodeError that names the key of the rig
 /// file where unit or base cannot be told
 std::vector<std::int64_t> times_of_values(const std::vector<double>& values, TimeNumber number,
-                                          const PointTiming& timing, const ScanStamp& stamp);
+                                          const PointTiming& timing, const ScanStamp& stamp,
+                                          PointTimeMemory* memory = nullptr);
 
 /// The time of each point of a cloud that has no time field. @throws DecodeError where no scan_period_s is configured
 std::vector<std::int64_t> spread_times(const std::vector<Eigen::Vector3f>& points, const PointTiming& timing,

@@ -1,5 +1,6 @@
 #include "sensors/messages/vehicle_decoders.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -16,14 +17,18 @@ std::optional<DecodedMessage> decode_quaternion(const RawMessage& message, const
 }
 
 std::optional<DecodedMessage> decode_imu_attitude(const RawMessage& message, const DecodeOptions& options) {
-  constexpr std::size_t kRatesAndAccelerationBytes = 24 * sizeof(double);
   ByteReader reader(message);
   AttitudeSample out;
   out.t_ns = read_stamp(reader, message, options);
   const Eigen::Quaterniond orientation = read_quaternion(reader);
   const auto covariance = reader.read<double>();
-  reader.take(8 * sizeof(double) + kRatesAndAccelerationBytes);
+  reader.take(8 * sizeof(double));
+  const double rate_rad_s = read_vector(reader).norm();
+  const auto rate_covariance = reader.read<double>();
+  reader.take(8 * sizeof(double));
+  reader.take(12 * sizeof(double));  // acceleration and its covariance
   reader.expect_end();
+  if (rate_covariance != -1 && std::isfinite(rate_rad_s)) out.rate_rad_s = rate_rad_s;
   if (covariance == -1) return std::nullopt;
   out.q_world_imu = unit_quaternion(orientation);
   return out;
@@ -39,8 +44,15 @@ std::optional<DecodedMessage> decode_fix(const RawMessage& message, const Decode
   fix.latitude_deg = reader.read<double>();
   fix.longitude_deg = reader.read<double>();
   fix.altitude_m = reader.read<double>();
-  reader.take(9 * sizeof(double) + 1);  // covariance and its kind
+  const auto east_m2 = reader.read<double>();
+  reader.take(3 * sizeof(double));
+  const auto north_m2 = reader.read<double>();
+  reader.take(4 * sizeof(double));
+  const auto covariance_kind = reader.read<std::uint8_t>();
   reader.expect_end();
+  constexpr std::uint8_t kUnknown = 0;
+  const double largest_m2 = std::max(east_m2, north_m2);
+  if (covariance_kind != kUnknown && largest_m2 > 0) fix.sigma_m = std::sqrt(largest_m2);
   if (status < 0) return std::nullopt;
   const bool on_earth = std::abs(fix.latitude_deg) <= 90 && std::abs(fix.longitude_deg) <= 360 &&
                         std::abs(fix.altitude_m) < 1e5;  // false for NaN

@@ -1,11 +1,13 @@
 #include "sensors/stream/flight_log.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "foundation/errors.hpp"
@@ -16,6 +18,7 @@ namespace alight {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr int kClouds = 10;                     // to look at before the first is read
 constexpr std::int64_t kLoggedBadMessages = 3;  // a topic; the rest is only counted
 
 /// What a connection of the bag is read for, and by what.
@@ -38,6 +41,7 @@ struct FlightLog::Impl {
   }
 
   void open();
+  void look_ahead();
   void choose(const SensorTopic& wanted);
   void choose(const SensorTopic& found, const BagConnection& connection);
   std::string topics_present() const;
@@ -72,11 +76,27 @@ void FlightLog::Impl::open() {
     summary.topic_messages[topic] = bag.count(topic);
     read.insert(topic);
   }
+  look_ahead();
   summary.messages = bag.select(read);
   summary.begin_ns = bag.begin_ns();
   summary.end_ns = bag.end_ns();
   if (bag.lost_bytes() > 0)
     summary.dropped["bytes at the end of a bag without index"] = static_cast<std::int64_t>(bag.lost_bytes());
+}
+
+/// The first clouds of the log together tell what their points' times mean.
+void FlightLog::Impl::look_ahead() {
+  for (const auto& [topic, list] : readings) {
+    for (const Reading& reading : list) {
+      if (reading.sensor != Sensor::kLidar) continue;
+      bag.select({topic});
+      for (int i = 0; i < kClouds; ++i) {
+        const auto message = bag.next();
+        if (!message) break;
+        assembler.look_ahead(*reading.decoder, message->raw);
+      }
+    }
+  }
 }
 
 void FlightLog::Impl::choose(const SensorTopic& wanted) {
@@ -90,8 +110,16 @@ void FlightLog::Impl::choose(const SensorTopic& wanted) {
     spdlog::warn("{}: no topic {} ({}); heights stay unknown", path.string(), topic, name(sensor));
     return;
   }
+  std::string type;
   for (const BagConnection& connection : bag.connections()) {
-    if (connection.topic == found) choose({sensor, found}, connection);
+    if (connection.topic != found) continue;
+    if (!type.empty() && connection.type != type) {
+      throw DataError(path.string() + ": topic " + found + " (" + name(sensor) +
+                      ") holds messages of two types, " + type + " and " + connection.type +
+                      "; record each on a topic of its own");
+    }
+    type = connection.type;
+    choose({sensor, found}, connection);
   }
 }
 
@@ -134,6 +162,16 @@ void FlightLog::Impl::decode(const Reading& reading, const RawMessage& raw, cons
     note_bad(topic, raw.receive_ns, e.what());
   }
   for (const auto& [reason, count] : assembler.dropped()) summary.dropped[reason] = count;
+  if (const auto lead_ns = assembler.constant_lead_ns()) {
+    throw DataError(
+        fmt::format("{}: the right images' stamps are {:.1f} ms after the left ones', too far for a pair. "
+                    "Cameras that are triggered "
+                    "together: set log.right_stamp_lead_s: {:.4f}; cameras that are not cannot be used "
+                    "together (or, hovering, with "
+                    "log.stereo_pair_tolerance_s: {:.4f})",
+                    path.string(), 1e3 * to_seconds(*lead_ns), to_seconds(*lead_ns),
+                    std::abs(to_seconds(*lead_ns)) + 0.002));
+  }
 }
 
 void FlightLog::Impl::note_bad(const std::string& topic, std::int64_t t_ns, const std::string& reason) {

@@ -5,11 +5,20 @@
 namespace alight {
 
 MessageAssembler::MessageAssembler(const Rig& rig, const LogConfig& config)
-    : rig_(rig), config_(config), pairer_(to_nanoseconds(config.stereo_pair_tolerance_s)) {}
+    : rig_(rig),
+      config_(config),
+      pairer_(to_nanoseconds(config.stereo_pair_tolerance_s)),
+      one_lidar_(rig.lidar0 ? rig.lidar0->lidar_id : std::nullopt) {}
 
 void MessageAssembler::add(Sensor sensor, const Decoder& decoder, const RawMessage& raw) {
+  // A height has no stamp: the same one again is nothing unusual.
+  if (sensor != Sensor::kHeight && repeat_guards_[sensor].repeated(raw)) {
+    ++dropped_[std::string(name(sensor)) + " messages that came twice"];
+    return;
+  }
   if (decoder.role == LogRole::kImage) return add_image(sensor, decoder, raw);
-  std::optional<DecodedMessage> decoded = decoder.decode(raw, options_of(sensor));
+  std::optional<DecodedMessage> decoded =
+      decoder.decode(raw, sensor == Sensor::kLidar ? lidar_options() : options_of(sensor));
   if (!decoded) {
     ++dropped_[std::string(name(sensor)) + " messages without a measurement"];
     return;
@@ -21,6 +30,20 @@ bool MessageAssembler::stamp_is_usable(Sensor sensor, std::int64_t t_ns, std::in
   if (stamp_guards_[sensor].usable(t_ns, receive_ns)) return true;
   ++dropped_[std::string(name(sensor)) + " messages whose stamp jumps"];
   return false;
+}
+
+void MessageAssembler::look_ahead(const Decoder& decoder, const RawMessage& raw) {
+  try {
+    decoder.decode(raw, lidar_options());
+  } catch (const DecodeError&) {
+    // Said when the message is read.
+  }
+}
+
+DecodeOptions MessageAssembler::lidar_options() {
+  DecodeOptions options = options_of(Sensor::kLidar);
+  options.point_times = &point_times_;
+  return options;
 }
 
 DecodeOptions MessageAssembler::options_of(Sensor sensor) const {
@@ -36,6 +59,7 @@ DecodeOptions MessageAssembler::options_of(Sensor sensor) const {
     options.stamp = rig_.lidar0->stamp;
     options.points = rig_.lidar0->points;
     options.reflectivity_scale = rig_.lidar0->reflectivity_scale;
+    options.noise = rig_.lidar0->noise_points;
   }
   return options;
 }
@@ -52,9 +76,10 @@ void MessageAssembler::accept(Sensor sensor, DecodedMessage decoded, std::int64_
   if (!stamp_is_usable(sensor, t_ns, receive_ns)) return;
   if (auto* packet = std::get_if<LidarPacket>(&decoded)) return accept_packet(std::move(*packet));
   if (auto* attitude = std::get_if<AttitudeSample>(&decoded)) {
+    attitude_guard_.check(*attitude);
     accept_timed(*attitude, config_.attitude_timeshift_s);
   } else if (auto* position = std::get_if<PositionSample>(&decoded)) {
-    accept_timed(*position, config_.position_timeshift_s);
+    accept_position(*position);
   } else {
     accept_timed(std::get<HeightSample>(decoded), config_.height_timeshift_s);
   }
@@ -115,7 +140,21 @@ cv::Mat MessageAssembler::decode(Sensor sensor, const UndecodedImage& image) con
   }
 }
 
+void MessageAssembler::accept_position(const PositionSample& position) {
+  for (const PositionSample& sample : fix_guard_.add(position))
+    accept_timed(sample, config_.position_timeshift_s);
+  if (fix_guard_.left_out() > 0)
+    dropped_["satellite fixes that the others do not bear out"] = fix_guard_.left_out();
+}
+
 void MessageAssembler::accept_packet(LidarPacket packet) {
+  if (!one_lidar_.wanted(packet)) {
+    ++dropped_["LiDAR messages of another lidar_id"];
+    return;
+  }
+  const std::int64_t mistimed = point_time_guard_.clean(packet);
+  if (mistimed > 0) dropped_["LiDAR points whose times cannot be true"] += mistimed;
+  if (packet.noise > 0) dropped_["LiDAR points that the sensor marks as noise"] += packet.noise;
   const std::int64_t shift_ns = to_nanoseconds(rig_.lidar0->timeshift_s);
   packet.t_ns += shift_ns;
   for (LidarReturn& point : packet.returns) point.t_ns += shift_ns;

@@ -39,6 +39,8 @@ class StereoPairer {
   /// Images that had no partner, without those that still wait for one.
   std::int64_t unpaired() const { return unpaired_; }
   /// Images that wait for a partner.
+  /// By how much the right stamps are after the left ones, where that is always the same and too much for any pair.
+  std::optional<std::int64_t> constant_lead_ns() const;
   std::int64_t waiting() const { return static_cast<std::int64_t>(left_.size() + right_.size()); }
 
  private:
@@ -47,6 +49,8 @@ class StereoPairer {
 
   std::int64_t tolerance_ns_;
   std::int64_t unpaired_ = 0;
+  bool paired_ = false;                           // at least once
+  std::deque<std::int64_t> right_after_left_ns_;  // of the latest that were no pair
   std::deque<UndecodedImage> left_;
   std::deque<UndecodedImage> right_;
 };
