@@ -1,4 +1,4 @@
-"""The layout that CONTRIBUTING.md promises: layout_test.py SOURCE_FOLDER.
+"""The layout that CONTRIBUTING.md promises, and documents whose links lead somewhere: layout_test.py SOURCE_FOLDER.
 
 No folder holds more than 25 files of its own, no source file's name exists twice, every .cpp has its header unless it is a
 program, no function is longer than 60 lines, folders use only the layers below them, and no two folders use each other.
@@ -74,6 +74,21 @@ def cycles(graph):
     return sorted({tuple(sorted((str(a), str(b)))) for a in reached for b in reached[a] if a != b and a in reached.get(b, ())})
 
 
+def dead_links(root, files):
+    """Links, and paths in code marks, of the documents that lead to no file."""
+    tops = {path.parts[0] for path in files if len(path.parts) > 1}
+    for path in files:
+        if path.suffix != ".md" or path.name == "CHANGELOG.md":
+            continue
+        text = (root / path).read_text()
+        for link in re.findall(r"\]\(([^)#\s]+)[)#]", text):
+            if "://" not in link and not (root / path.parent / link).exists():
+                yield f"{path}: the link {link} leads nowhere"
+        for place in re.findall(r"`([\w./-]+/[\w./-]*\w)`", text):
+            if place.split("/")[0] in tops and not (root / place).exists():
+                yield f"{path}: {place} is no file"
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
     files = list(sources(root))
@@ -107,6 +122,7 @@ def main():
             elif order[top_b] >= order[top_a] and top_a != "train" or (top_a, top_b) in NEVER:
                 faults.append(f"{sorted(places)[0][0]}: {a} must not use {b}")
     faults += [f"{a} and {b}: use each other" for a, b in cycles(graph)]
+    faults += dead_links(root, files)
     print("\n".join(faults))
     print(f"{len(files)} files in {len(count)} folders, {len(faults)} faults")
     return 1 if faults or len(files) < 500 else 0
