@@ -17,12 +17,19 @@ struct StereoShift {
   double response = 0;   ///< of the phase correlation, 0 to 1; 0 without texture
 };
 
+/// How alike the two images' middles are where the right one is moved by `shift_px` onto the left one: 1 is the same picture but
+/// for brightness and contrast, 0 another one. @param left, right, window_px as of stereo_shift
+double likeness(const cv::Mat& left, const cv::Mat& right, const cv::Point2d& shift_px, int window_px);
+
 /// @param left, right rectified, one size, CV_8UC1 or CV_8UC3. @param window_px side of the square that is compared
 StereoShift stereo_shift(const cv::Mat& left, const cv::Mat& right, int window_px);
 
 /// Whether the two cameras belong together: one exposure, each on its own side. The distance of the ground says by how much
 /// the right image has to be shifted; swapped cameras are shifted the other way, and cameras of different moments by the
-/// vehicle's motion between them, up and down too. A hovering vehicle hides a shift in time, and loses nothing by it.
+/// vehicle's motion between them, up and down too. The shift is measured by phase, in which fine noise weighs as much as the
+/// ground; so a shift is believed only where the images are clearly more alike there than where they should be. Over smooth
+/// ground they are alike everywhere, and nothing is said. What both cameras show at the same pixels (dust on the lenses, a
+/// vignette, a sensor's fixed pattern) is no ground. A hovering vehicle hides a shift in time, and loses nothing by it.
 class CameraAlignment {
  public:
   CameraAlignment(const HealthConfig& config, const RectifiedRig& rig);

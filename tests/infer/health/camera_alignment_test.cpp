@@ -1,5 +1,9 @@
 #include "infer/health/camera_alignment.hpp"
 
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <gtest/gtest.h>
@@ -56,6 +60,72 @@ TEST(CameraAlignment, TellsSwappedAndShiftedCamerasFromHealthyOnes) {
 
 TEST(CameraAlignment, SaysNothingOfSwappedCamerasWhereThereIsNoDisparity) {
   EXPECT_EQ(fault_of(view(0.3, 0), view(0, 0), 440 * 0.08 / 0.3), "");
+}
+
+/// Smooth ground: its texture is `scale_px` wide.
+cv::Mat smooth_view(double x_px, double y_px, double scale_px) {
+  cv::Mat ground(320, 400, CV_32FC1);
+  cv::RNG random(5);
+  random.fill(ground, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(ground, ground, {0, 0}, scale_px);
+  cv::normalize(ground, ground, 60, 190, cv::NORM_MINMAX);
+  const cv::Matx23d move(1, 0, 40 + x_px, 0, 1, 40 + y_px);
+  cv::Mat image;
+  cv::warpAffine(ground, image, move, {320, 240}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+  return image;
+}
+
+cv::Mat as_seen(const cv::Mat& real, double noise, int seed, const cv::Mat& pattern = {}) {
+  cv::Mat out = real.clone();
+  cv::Mat grains(real.size(), CV_32FC1);
+  cv::RNG(static_cast<std::uint64_t>(seed)).fill(grains, cv::RNG::NORMAL, 0, noise);
+  if (noise > 0) out += grains;
+  if (!pattern.empty()) out += pattern;
+  cv::Mat image;
+  out.convertTo(image, CV_8UC1);
+  return image;
+}
+
+cv::Mat by_jpeg(const cv::Mat& image, int quality) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+}
+
+TEST(CameraAlignment, SaysNothingOfHealthyPairsOverSmoothGroundWhateverTheNoise) {
+  cv::Mat pattern(240, 320, CV_32FC1);
+  for (const double scale_px : {2.0, 5.0, 12.0, 30.0}) {
+    const cv::Mat left = smooth_view(0, 0, scale_px);
+    const cv::Mat right = smooth_view(kDisparity_px, 0, scale_px);
+    for (const double noise : {0.0, 1.0, 2.0, 5.0}) {
+      EXPECT_EQ(fault_of(as_seen(left, noise, 1), as_seen(right, noise, 2)), "")
+          << scale_px << " px, " << noise;
+      for (const int quality : {50, 90})
+        EXPECT_EQ(
+            fault_of(by_jpeg(as_seen(left, noise, 1), quality), by_jpeg(as_seen(right, noise, 2), quality)),
+            "")
+            << scale_px << " px, " << noise << ", JPEG " << quality;
+    }
+    for (const double fixed : {0.7, 2.0, 5.0}) {
+      cv::RNG(3).fill(pattern, cv::RNG::NORMAL, 0, fixed);
+      EXPECT_EQ(fault_of(as_seen(left, 0, 1, pattern), as_seen(right, 0, 2, pattern)), "")
+          << scale_px << " px, a pattern of " << fixed;
+    }
+  }
+}
+
+TEST(CameraAlignment, FindsLateCamerasThroughNoiseAndJpeg) {
+  for (const double noise : {0.0, 2.0, 5.0}) {
+    const cv::Mat left = by_jpeg(as_seen(smooth_view(0, 0, 2), noise, 1), 90);
+    EXPECT_EQ(fault_of(left, by_jpeg(as_seen(smooth_view(kDisparity_px, 8, 2), noise, 2), 90)),
+              "cameras misaligned")
+        << noise;
+  }
+}
+
+TEST(CameraAlignment, OnePictureUnderTwoNamesIsFound) {
+  const cv::Mat image = view(0, 0);
+  EXPECT_EQ(fault_of(image, image), "cameras misaligned");
 }
 
 TEST(CameraAlignment, SaysNothingWithoutTextureOrDistance) {
