@@ -194,7 +194,7 @@ bool thorough() { return std::getenv("ALIGHT_FAULTS_THOROUGH") != nullptr; }
 int network_image_step() { return thorough() ? 1 : 2; }
 
 std::shared_ptr<DepthPredictor> shipped_network(const Rig& rig) {
-  return make_network_predictor(fs::path(ALIGHT_SOURCE_DIR) / "models" / "shipped" / "default.pt",
+  return make_network_predictor(fs::path(ALIGHT_SOURCE_DIR) / "models" / "weights" / "default.pt",
                                 engine_rig({}, rig), {});
 }
 
