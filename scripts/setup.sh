@@ -10,6 +10,7 @@ set -euo pipefail
 packages=(
   # tool chain
   clang lld libomp-dev clang-format-19 libclang-rt-dev cmake ninja-build ccache git ca-certificates pkg-config
+  file dpkg-dev  # for cpack
   # libraries
   libtorch-dev libgloo-dev libopenblas0-pthread libopencv-dev libeigen3-dev libyaml-cpp-dev libfmt-dev libspdlog-dev
   libcli11-dev nlohmann-json3-dev libcpp-httplib-dev libgeographiclib-dev libembree-dev libtbb-dev libonnx-dev libprotobuf-dev
