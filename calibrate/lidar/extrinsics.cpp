@@ -36,7 +36,7 @@ void require_spread(const std::vector<BoardView>& views, const std::vector<char>
 }
 
 void require_observable(const Extrinsics& result, const ExtrinsicsConfig& config) {
-  static const char* const kAxes[] = {"x (right)", "y (down)", "z (forward)"};
+  static const char* const kAxesInWords[] = {"x (right)", "y (down)", "z (forward)"};
   const Vector6d sigma = result.sigma();
   int shift = 0;
   int turn = 0;
@@ -48,8 +48,8 @@ void require_observable(const Extrinsics& result, const ExtrinsicsConfig& config
       "the extrinsics are not observable well enough: 1 sigma of the shift along the camera's {} is "
       "{:.1f} mm (at most {:.1f}), of the turn about its {} {:.3f} deg (at most {:.3f}); record "
       "more boards, at other places of the image, nearer, and tilted in other directions",
-      kAxes[shift], 1e3 * sigma[shift], 1e3 * config.max_translation_sigma_m, kAxes[turn], turn_deg,
-      config.max_rotation_sigma_deg));
+      kAxesInWords[shift], 1e3 * sigma[shift], 1e3 * config.max_translation_sigma_m, kAxesInWords[turn],
+      turn_deg, config.max_rotation_sigma_deg));
 }
 
 void require_distinct(const Extrinsics& result, const ExtrinsicsConfig& config) {
