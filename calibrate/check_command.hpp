@@ -6,6 +6,7 @@
 
 namespace alight {
 
+/// Options of `alight-calibrate check`; paths of files and folders.
 struct CheckOptions {
   ConfigOptions config;
   std::string log;

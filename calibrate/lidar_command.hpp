@@ -7,6 +7,7 @@
 
 namespace alight {
 
+/// Options of `alight-calibrate lidar`; the side of a square in metres.
 struct LidarOptions {
   ConfigOptions config;
   std::vector<std::string> logs;

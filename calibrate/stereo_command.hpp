@@ -6,6 +6,7 @@
 
 namespace alight {
 
+/// Options of `alight-calibrate stereo`; the side of a square in metres.
 struct StereoOptions {
   ConfigOptions config;
   std::string left;  ///< files, with * and ?

@@ -7,6 +7,7 @@
 
 namespace alight {
 
+/// Options of `alight-dataset align`; paths of files.
 struct AlignOptions {
   ConfigOptions config;
   std::string log;

@@ -7,6 +7,7 @@
 
 namespace alight {
 
+/// Options of `alight-dataset build`.
 struct BuildArguments {
   ConfigOptions config;
   std::vector<std::string> logs;
@@ -15,11 +16,13 @@ struct BuildArguments {
   std::string shard;  ///< "i/N": of the logs, only every N-th from the i-th
 };
 
+/// Options of `alight-dataset info`.
 struct InfoOptions {
   std::string dataset;
   std::string picture;  ///< empty: none
 };
 
+/// Options of `alight-dataset view`.
 struct ViewOptions {
   std::string dataset;
   std::string flight;  ///< empty: the first
@@ -27,6 +30,7 @@ struct ViewOptions {
   std::string output;
 };
 
+/// Options of `alight-dataset merge`.
 struct MergeArguments {
   std::vector<std::string> parts;
   std::string output;

@@ -16,11 +16,13 @@ namespace alight {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
+/// Between nanoseconds, which times are kept in, and seconds, rounded to the nearest.
 constexpr double to_seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 inline std::int64_t to_nanoseconds(double s) { return static_cast<std::int64_t>(std::llround(s * 1e9)); }
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadiansPerDegree = kPi / 180.0;
+/// Between degrees, which people read, and radians, which everything else is in.
 constexpr double to_radians(double deg) { return deg * kRadiansPerDegree; }
 constexpr double to_degrees(double rad) { return rad / kRadiansPerDegree; }
 

@@ -57,6 +57,7 @@ class Trajectory {
   Stream<Eigen::Vector3d> positions_;
 };
 
+/// Looks poses up in order of time, from where the last one was found. The trajectory must outlive it.
 class Trajectory::Cursor {
  public:
   explicit Cursor(const Trajectory& trajectory) : trajectory_(trajectory) {}

@@ -12,6 +12,7 @@ namespace alight {
 /// the smallest (monodepth2), which forgives what one source does not see.
 enum class PhotometricReduction { kMean, kMin };
 
+/// Weight and sources of the photometric loss (paper 3.2).
 struct PhotometricLossConfig {
   double ssim_weight = 0.85;  ///< alpha; the rest weighs the absolute difference
   PhotometricReduction reduction = PhotometricReduction::kMean;

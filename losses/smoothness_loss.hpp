@@ -6,6 +6,7 @@
 
 namespace alight {
 
+/// How edges of the image excuse steps of depth (paper 3.2).
 struct SmoothnessLossConfig {
   bool edge_aware = false;     ///< weigh with exp(-edge_sharpness * |image gradient|); off in the paper
   double edge_sharpness = 10;  ///< of images in 0..1

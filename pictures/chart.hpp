@@ -11,11 +11,13 @@ namespace alight {
 /// All lengths in this header are in the larger pixels.
 constexpr int kChartOversampling = 2;
 
+/// A line of a chart.
 struct Curve {
   cv::Scalar color_bgr;
   std::vector<cv::Point2d> points;  ///< in the data's units; a y that is not finite leaves a gap
 };
 
+/// One chart: axes, curves and words.
 struct Chart {
   std::string title;
   std::string x_title;

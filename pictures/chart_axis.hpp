@@ -5,6 +5,7 @@
 
 namespace alight {
 
+/// A mark of an axis with its words.
 struct AxisTick {
   double value = 0;
   std::string label;

@@ -9,6 +9,7 @@ namespace alight {
 /// `adam` (Kingma and Ba 2015; the paper); `adamw`: with decoupled weight decay (Loshchilov and Hutter 2019).
 enum class OptimizerKind { kAdam, kAdamW };
 
+/// The optimiser and its step size.
 struct OptimizerConfig {
   OptimizerKind kind = OptimizerKind::kAdam;
   double learning_rate = 2e-4;

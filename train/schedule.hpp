@@ -10,6 +10,7 @@ namespace alight {
 /// (Loshchilov and Hutter 2017).
 enum class ScheduleKind { kConstant, kStep, kCosine };
 
+/// How the step size changes over a training.
 struct ScheduleConfig {
   ScheduleKind kind = ScheduleKind::kStep;
   int warmup_steps = 0;        ///< the learning rate rises linearly over the first steps

@@ -13,6 +13,7 @@
 
 namespace alight {
 
+/// On what a network is judged while it learns.
 struct ValidationConfig {
   std::vector<double> shares{0, 0.1, 0.3, 0.5, 1.0};  ///< P: shares of the points fed (METHOD, "Evaluation")
   std::vector<double> windows_s;                      ///< accumulation windows that begin with the image
@@ -31,6 +32,7 @@ struct ValidationRow {
   ErrorMeter dense;         ///< every pixel with true depth; empty for real flights
 };
 
+/// A network's errors on the validation samples; metres.
 struct ValidationReport {
   std::vector<ValidationRow> network;  ///< in the order of the shares, then of the windows
   std::vector<ValidationRow>

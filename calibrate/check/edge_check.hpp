@@ -37,6 +37,7 @@ struct EdgeCheck {
   Betterment shift;       ///< and what a shift would add to that turn
 };
 
+/// Searches for the turns and shifts of the LiDAR at which depth edges and image edges agree best.
 EdgeCheck check_edges(const EdgeAgreement& agreement, const EdgeCheckConfig& config);
 
 /// exp(turn) about the camera's origin, then the shift.

@@ -50,6 +50,7 @@ struct AxisCheck {
   bool moved = false;
 };
 
+/// The outcome of a check.
 struct RigCheck {
   RigVerdict verdict = RigVerdict::kCannotTell;
   std::vector<std::string> reasons;  ///< why it cannot tell, or what has moved

@@ -44,6 +44,7 @@ struct ViewTurn {
   Eigen::Vector3d posed_rad = Eigen::Vector3d::Zero();  ///< by the poses, at the offset that was found
 };
 
+/// The outcome for a log: how far its clocks are off, in seconds, and how sure that is.
 struct ClockAlignment {
   ClockOffset camera;
   double correlation = 0;  ///< of the turns by images and by poses, at the camera's offset

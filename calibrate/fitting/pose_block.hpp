@@ -26,11 +26,13 @@ struct PoseView {
   }
 };
 
+/// The parameters of a rigid motion: quaternion and translation, metres.
 inline PoseBlock pose_block(const Eigen::Isometry3d& T) {
   const Eigen::Quaterniond q(T.linear());
   return {T.translation().x(), T.translation().y(), T.translation().z(), q.x(), q.y(), q.z(), q.w()};
 }
 
+/// And back.
 inline Eigen::Isometry3d transform_of(const PoseBlock& block) {
   const PoseView<double> pose(block.data());
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();

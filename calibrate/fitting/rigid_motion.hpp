@@ -8,18 +8,21 @@ namespace alight {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+/// The matrix whose product with w is v x w.
 inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d S;
   S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return S;
 }
 
+/// The rotation of a rotation vector, radians (Rodrigues).
 inline Eigen::Matrix3d rotation_exp(const Eigen::Vector3d& w_rad) {
   const double angle = w_rad.norm();
   return angle < 1e-12 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity() + skew(w_rad))
                        : Eigen::AngleAxisd(angle, w_rad / angle).toRotationMatrix();
 }
 
+/// The rotation vector of a rotation, radians, of length 0 to pi.
 inline Eigen::Vector3d rotation_log(const Eigen::Matrix3d& R) {
   const Eigen::AngleAxisd turn(R);
   return turn.angle() * turn.axis();

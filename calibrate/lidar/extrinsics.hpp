@@ -54,6 +54,7 @@ struct Alternative {
   double rmse_px = 0;
 };
 
+/// Where the LiDAR sits before the left camera, how well that is known, and what else would explain the boards.
 struct Extrinsics {
   Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();
   /// Of (translation [m], rotation vector [rad]), both in the camera's frame: true T = (Exp(w) R, t + dt).

@@ -21,6 +21,7 @@ struct JointNoise {
   double angle_bias_rad = 0;  ///< of each board: all of it appears turned about the LiDAR
 };
 
+/// The outcome of the joint refinement: transform, residuals, covariance.
 struct JointResult {
   Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< as Extrinsics::covariance

@@ -38,6 +38,7 @@ struct SceneResult {
 SceneResult observe_scene(StaticScene scene, const Rig& rig, const Chessboard& board,
                           const LidarCalibrationConfig& config);
 
+/// The outcome of a calibration, board by board.
 struct LidarCalibration {
   Rig rig;  ///< with the new T_cam_lidar
   Extrinsics extrinsics;

@@ -29,6 +29,7 @@ struct ViewError {
   double right = 0;
 };
 
+/// The outcome of a bundle adjustment; errors in pixels.
 struct BundleResult {
   StereoBundle bundle;
   std::vector<ViewError> errors;  ///< a view

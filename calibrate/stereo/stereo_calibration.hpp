@@ -45,6 +45,7 @@ struct Estimate {
   double sigma = 0;
 };
 
+/// The outcome of a stereo calibration; errors in pixels.
 struct StereoCalibration {
   Rig rig;            ///< both cameras, without topics, LiDAR and IMU
   double rms_px = 0;  ///< over all corners of both cameras, as cv::stereoCalibrate counts

@@ -16,6 +16,7 @@ namespace alight {
 /// Called now and then with (bytes of the logs that are done, bytes of the logs that have to be built).
 using BuildProgress = std::function<void(std::int64_t, std::int64_t)>;
 
+/// How a build runs; nothing of it changes the result.
 struct BuildOptions {
   int at_once = 0;  ///< logs that are read at a time; 0: as many as there are cores
   BuildProgress progress;

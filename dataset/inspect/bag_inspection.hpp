@@ -53,6 +53,7 @@ struct TopicReport {
   const RoleTrial* serves_as(LogRole role) const;
 };
 
+/// What a bag holds, topic by topic.
 struct BagReport {
   std::filesystem::path path;
   std::int64_t messages = 0;

@@ -37,6 +37,7 @@ struct DepthSample {
   std::int64_t index = 0;  ///< of the dataset
 };
 
+/// Which flights are read, and what of each sample.
 struct DepthDatasetOptions {
   std::vector<std::string> flights;  ///< names; empty: all
   bool with_dense = false;           ///< evaluation only: the true depth of simulated flights

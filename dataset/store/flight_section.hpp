@@ -24,6 +24,7 @@ struct FlightSection {
 void bind(Binder& b, FlightSection::Dropped& c);
 void bind(Binder& b, FlightSection& c);
 
+/// A flight as it stands in the file, and back.
 FlightSection to_section(const FlightEntry& flight);
 FlightEntry from_section(const FlightSection& section);
 

@@ -12,6 +12,7 @@ enum class NoisePoints {
   kDropLikely,   ///< and what it finds likely, the default: one lost point of ground matters less
 };
 
+/// The rig's key for it.
 void bind_noise_points(Binder& b, const char* key, NoisePoints& noise);
 
 }  // namespace alight

@@ -37,6 +37,7 @@ struct PointTiming {
   double scan_start_rad = 0;  ///< azimuth at which a scan begins, from x (forward) to y (left)
 };
 
+/// The key that chooses between the two times.
 void bind_stamp(Binder& b, const std::string& key, StampSource& stamp);
 /// The keys of a rig's LiDAR that tell the times of its points.
 void bind_point_timing(Binder& b, PointTiming& timing);

@@ -23,6 +23,7 @@ struct RawMessage {
   std::int64_t receive_ns = 0;  ///< when the recorder got it; the time of types without a stamp
 };
 
+/// std_msgs/Header without its sequence number; the stamp in nanoseconds.
 struct MessageHeader {
   std::int64_t stamp_ns = 0;
   std::string_view frame_id;  ///< valid as long as the message

@@ -39,6 +39,7 @@ enum class Sensor { kLeft, kRight, kLidar, kAttitude, kPosition, kHeight };
 const char* name(Sensor sensor);
 LogRole role(Sensor sensor);
 
+/// A topic and what it is read for.
 struct SensorTopic {
   Sensor sensor = Sensor::kLeft;
   std::string topic;

@@ -19,8 +19,10 @@
 /// own clock, `sequence` the message's number.
 namespace alight::sim {
 
+/// Nanoseconds as ROS writes them.
 ros::Time to_ros_time(std::int64_t t_ns);
 
+/// The messages of the paper's rig (docs/formats.md), stamps in nanoseconds, angles as quaternions, heights in metres.
 geometry_msgs::QuaternionStamped attitude_message(const Eigen::Quaterniond& q_world_imu,
                                                   std::int64_t stamp_ns, std::uint32_t sequence);
 sensor_msgs::Imu imu_message(const ImuSample& sample, std::int64_t stamp_ns, std::uint32_t sequence);

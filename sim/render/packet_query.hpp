@@ -34,6 +34,7 @@ inline void intersect_packet(RTCScene scene, const int* valid, bool coherent, RT
   rtcIntersect8(valid, scene, &context, &packet);
 }
 
+/// Whether anything lies on each ray; `tfar` becomes minus infinity where something does.
 inline void occlude_packet(RTCScene scene, const int* valid, bool coherent, RTCRay8& packet) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

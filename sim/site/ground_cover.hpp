@@ -18,6 +18,7 @@ struct CoverSurfaces {
   std::uint16_t mud = 0;       ///< in and around ponds
 };
 
+/// Enters the surfaces that cover the ground of a world.
 CoverSurfaces add_cover_surfaces(const WorldSpec& spec, SurfaceTable& surfaces);
 
 /// Paints the terrain's cover map: where several things lie on a point, roads come first, then their shoulders, ponds,

@@ -10,6 +10,7 @@ namespace alight::sim {
 /// where the world is to be harder. Nobody leaves a round hole in a field of crops, if there is other ground.
 void lay_clearings(const WorldSpec& spec, const Relief& relief, SiteLayout& layout);
 
+/// Lays the ponds that the spec asks for.
 void lay_ponds(const WorldSpec& spec, const Relief& relief, SiteLayout& layout);
 
 /// Mounds lie on free ground and take none.

@@ -10,6 +10,7 @@
 
 namespace alight::sim {
 
+/// A road on the plan; metres.
 struct Road {
   GroundSegment line;
   double width_m = 0;
@@ -32,12 +33,14 @@ struct Levelling {
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
 };
 
+/// A pond on the plan; metres.
 struct Pond {
   Eigen::Vector2d centre;
   double radius_m = 0;
   double level_m = 0;  ///< of the water, in the relief
 };
 
+/// A rise of the ground on the plan; metres.
 struct Mound {
   Eigen::Vector2d centre;
   double sigma_m = 0;  ///< its height is a bell curve

@@ -21,6 +21,7 @@ struct SiteCounts {
   std::int64_t unsafe_circle = 0;  ///< accepted sites whose centre is safe but too much of the circle is not
 };
 
+/// A flight's landing sites, counted against the truth.
 struct FlightScore {
   SiteCounts all;
   std::map<std::string, SiteCounts> by_source;  ///< image, lidar, fallback, none

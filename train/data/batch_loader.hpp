@@ -11,6 +11,7 @@
 
 namespace alight {
 
+/// How batches are made and loaded; of these, `workers` alone changes nothing in them.
 struct BatchLoaderOptions {
   int batch_size = 16;
   int steps = 0;               ///< batches an epoch; 0: as many full batches as there are samples for

@@ -11,6 +11,7 @@ namespace alight {
 /// Colours that can be told apart in one figure.
 constexpr std::size_t kMaxPlottedRuns = 10;
 
+/// What is drawn of a run.
 struct PlotOptions {
   int width_px = 1600;
   int chart_height_px = 360;

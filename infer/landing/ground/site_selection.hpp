@@ -15,6 +15,7 @@
 
 namespace alight {
 
+/// What came of the search for a site.
 enum class SiteStatus {
   kFound,
   kNoDepth,     ///< no pixel has a depth

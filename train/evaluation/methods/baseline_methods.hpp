@@ -7,6 +7,7 @@
 
 namespace alight {
 
+/// Limits of the baselines; metres.
 struct BaselineConfig {
   double max_depth_m = 150;       ///< farthest depth of the altitude plane
   double ip_basic_range_m = 100;  ///< IP-Basic inverts depths as this minus depth

@@ -20,6 +20,7 @@ struct DepthCheckInput {
   cv::Mat truth_m;      ///< CV_32FC1; empty: none
 };
 
+/// How a depth map is judged by its stereo pair.
 struct DepthCheckConfig {
   StereoTestConfig stereo;
   InterpolationConfig interpolation;
@@ -27,6 +28,7 @@ struct DepthCheckConfig {
   bool centre_cropped = false;         ///< the images are the centres of what the rig's cameras see
 };
 
+/// What the stereo pair says of a depth map.
 struct DepthCheckResult {
   StereoScores scores;
   bool paper_accepts = false;              ///< one of the paper's two rules holds

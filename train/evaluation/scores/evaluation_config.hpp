@@ -17,6 +17,7 @@ enum class EvaluatedPart { kAll, kTraining, kHeldOut, kUnknown, kAllButTraining 
 /// As in a configuration, such as held_out.
 const char* name(EvaluatedPart part);
 
+/// What is judged, by which methods and feedings.
 struct EvaluationConfig {
   std::vector<std::string> flights;  ///< empty: all
   SplitConfig split;

@@ -28,6 +28,7 @@ struct SampleError {
   double rmse_mm = 0;  ///< over the dense truth, else the LiDAR's
 };
 
+/// All values of an evaluation, by method, feeding, region, metric and flight.
 struct EvaluationReport {
   std::vector<std::pair<std::string, std::string>> about;  ///< what was judged, for the head of a table
   std::vector<std::string> methods;

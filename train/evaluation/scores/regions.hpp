@@ -31,6 +31,7 @@ constexpr std::array<Region, 10> kRegions{
 /// Name for files, such as held_out.
 const char* name(Region region);
 
+/// Where the regions end; metres and degrees.
 struct RegionConfig {
   double lidar_half_fov_deg = 19.174;  ///< the Mid-40's circle
   /// An edge lies between neighbouring pixels (left and right, above and below) whose true depths differ by more than

@@ -22,6 +22,7 @@ class WholeDataset : public SampleSource {
   DepthDataset dataset_;
 };
 
+/// Each sample's flight and time, in nanoseconds.
 std::vector<SampleTime> sample_times(const DepthDataset& dataset);
 
 /// The names of the flights, for readers.

@@ -28,6 +28,7 @@ struct Decision {
 /// The paper's rules alone, and every `decide_by`.
 const std::vector<Decision>& decisions();
 
+/// What the self-evaluation said of all maps, beside their true errors.
 struct SelfReport {
   std::vector<std::pair<std::string, std::string>> about;  ///< for the head
   std::string command;                                     ///< that makes it again

@@ -42,6 +42,7 @@ enum class MapOrigin {
 /// For files, such as wrong_height.
 const char* name(MapOrigin origin);
 
+/// Which maps are made, and which of them count as good.
 struct SelfScoreConfig {
   ImageTaskConfig image;                            ///< the tests, as the onboard loop applies them
   std::vector<double> windows_s{0, 0.1, 0.3, 1.0};  ///< LiDAR time fed, from the image on; 0: the image alone
