@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "foundation/order_statistics.hpp"
 #include "geometry/frames.hpp"
 #include "sensors/messages/byte_reader.hpp"
 
@@ -28,11 +29,9 @@ void PointTimeGuard::learn(std::int64_t stamp_ns) {
 
 std::int64_t PointTimeGuard::reach_ns() const {
   if (steps_ns_.empty()) return kFirstReach_ns;
-  std::vector<std::int64_t> sorted(steps_ns_.begin(), steps_ns_.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return std::max(static_cast<std::int64_t>(kReachInPeriods * static_cast<double>(*middle)),
-                  *middle + kMargin_ns);
+  const std::int64_t period_ns = median(std::vector<std::int64_t>(steps_ns_.begin(), steps_ns_.end()));
+  return std::max(static_cast<std::int64_t>(kReachInPeriods * static_cast<double>(period_ns)),
+                  period_ns + kMargin_ns);
 }
 
 std::int64_t PointTimeGuard::clean(LidarPacket& packet) {
